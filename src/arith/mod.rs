@@ -1,0 +1,6 @@
+//! Floor 1: exact decisions and correctly rounded constructions.
+
+mod kernel;
+pub mod perturb;
+
+pub use kernel::{Kernel, OutOfRange, Corners};

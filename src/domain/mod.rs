@@ -1,0 +1,1 @@
+//! Floor 2: the statement of a domain and its conditions.

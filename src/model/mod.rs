@@ -1,0 +1,19 @@
+//! Floor 0: plain data. No arithmetic and no decision lives here.
+
+mod ids;
+mod mesh;
+mod parameters;
+mod point;
+mod pslg;
+mod sign;
+mod simplex;
+
+pub use ids::{SegmentId, VertexId};
+pub use mesh::{Mesh2, MeshEdge, VertexKind};
+pub use parameters::{
+    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Level, QueueOrder, SmallAngles, VertexOfTriangle,
+};
+pub use point::Point2;
+pub use pslg::{Fill, Lines, Pslg, Region, Segment};
+pub use sign::Sign;
+pub use simplex::{Edge, Triangle, canonical_triangle};

@@ -1,0 +1,5 @@
+//! Floor 1: the vocabulary of traces, and their two canonical forms.
+
+mod record;
+
+pub use record::{Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, Shell, SkipReason, Sink, SplitKind, Why};

@@ -1,0 +1,3 @@
+//! Floor 3: triangulations.
+
+pub mod cdt2;
