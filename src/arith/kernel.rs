@@ -95,8 +95,8 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     /// Midpoint of ab.
     fn midpoint(a: Point2, b: Point2) -> Point2;
 
-    /// a + f (b - a).
-    fn at_fraction(a: Point2, b: Point2, f: f64) -> Point2;
+    /// c + x (1 - delta)/2 (b - a), c the midpoint of ab; x in [-1, 1].
+    fn in_interval(a: Point2, b: Point2, delta: f64, x: f64) -> Point2;
 
     /// The point of the ray from a through b at distance 2^k from a (one square root).
     fn at_distance(a: Point2, b: Point2, k: i32) -> Point2;

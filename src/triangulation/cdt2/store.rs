@@ -51,7 +51,18 @@ impl<K: Kernel> Cdt2<K> {
     pub fn edge_from(&self, v: VertexId) -> Option<HalfEdge> { todo!() }
     /// The half-edge from u to v, if it exists on a live triangle (then its left side), found by turning around u.
     pub fn find_edge(&self, u: VertexId, v: VertexId) -> Option<HalfEdge> { todo!() }
+    // construction
+    /// The Delaunay triangulation of the points; at least 3 not on a line, all distinct (else an error naming ids).
+    pub fn delaunay(points: Vec<Point2>) -> Result<Self, super::BuildError> { todo!() }
+    /// Makes each segment (repaired: no crossings, no vertex inside, no duplicates) an edge; ids are positions.
+    pub fn constrain(&mut self, segments: &[[VertexId; 2]]) -> Result<(), super::BuildError> { todo!() }
     // mutation
+    /// From here on mutations are journalled, until `commit` or `rollback`.
+    pub fn checkpoint(&mut self) { todo!() }
+    /// Forgets the journal.
+    pub fn commit(&mut self) { todo!() }
+    /// Restores the state at `checkpoint`: same slots, same births.
+    pub fn rollback(&mut self) { todo!() }
     /// Birth that triangles created from now on carry.
     pub fn set_clock(&mut self, now: u32) { todo!() }
     /// Inserts p, strictly inside the circle of t and seen from it with no constraint on the way (section 4 of the algorithm).
