@@ -2,6 +2,8 @@
 #![forbid(unsafe_code)]
 
 pub mod arith;
+#[cfg(any(test, feature = "generators"))]
+pub mod generators;
 pub mod model;
 pub mod trace;
 pub mod triangulation;

@@ -3,4 +3,4 @@
 mod kernel;
 pub mod perturb;
 
-pub use kernel::{Kernel, OutOfRange, Corners};
+pub use kernel::{Corners, Kernel, OutOfRange};

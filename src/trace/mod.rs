@@ -2,4 +2,7 @@
 
 mod record;
 
-pub use record::{Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, Shell, SkipReason, Sink, SplitKind, Why};
+pub use record::{
+    Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, Shell, Sink, SkipReason,
+    SplitKind, Why,
+};
