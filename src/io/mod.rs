@@ -1,0 +1,22 @@
+//! Floor 3: files. Readers of planar straight line graphs and of meshes, writers of meshes.
+//!
+//! Readers work on bytes and touch no file. Each is bounded by the length of what it is given, answers any bytes with a value or one
+//! located `ReadError`, and repairs nothing that the format itself does not repeat. Numbers are decimal and finite; whether their range suits the
+//! mesher is for `domain` to say.
+
+mod angle;
+mod error;
+mod foreign;
+mod input;
+mod number;
+mod rows;
+mod triangle;
+pub mod write;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::ReadError;
+pub use foreign::{ForeignEdge, ForeignMesh, MeshLines};
+pub use input::{Input, Note, NoteKind};
+pub use triangle::{TriangleFiles, parse_node, parse_node_ele, parse_poly, poly_wants_node};
