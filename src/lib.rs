@@ -2,9 +2,11 @@
 #![forbid(unsafe_code)]
 
 pub mod arith;
+pub mod check;
 #[cfg(any(test, feature = "generators"))]
 pub mod generators;
 pub mod io;
 pub mod model;
+pub mod reproduce;
 pub mod trace;
 pub mod triangulation;

@@ -1,0 +1,399 @@
+//! One formula, two number types: a value with a proven running error bound, and an interval of rationals.
+//!
+//! Problem: an inequality with square roots has to be decided, and most of the time doubles are enough.
+//! Idea: formulas are generic over `Scalar`; a comparison answers `None` when the number type cannot tell. `decide` tries
+//! `Bounded` first, then `Enclosure`, which is exact where no irrational root occurs and has 160 bits elsewhere. What
+//! neither decides is reported as unchecked, never as passed.
+
+use super::rational::Rational;
+use std::cmp::Ordering;
+use std::ops::{Add, Div, Mul, Sub};
+
+/// A number that knows how well it is known.
+pub trait Scalar:
+    Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// The exact value of a finite double.
+    fn of(x: f64) -> Self;
+    /// The square root; of a number that may be negative it is unknown.
+    fn root(self) -> Self;
+    /// The order, if it is known.
+    fn compare(&self, other: &Self) -> Option<Ordering>;
+    /// The lesser of two: a lower and an upper bound of it are those of the bounds.
+    fn min(self, other: Self) -> Self;
+    /// The greater of two.
+    fn max(self, other: Self) -> Self;
+    /// A nearby double, for display.
+    fn display(&self) -> f64;
+
+    /// Whether self <= other, if it is known.
+    fn at_most(&self, other: &Self) -> Option<bool> {
+        self.compare(other).map(Ordering::is_le)
+    }
+
+    /// Whether self < other, if it is known.
+    fn below(&self, other: &Self) -> Option<bool> {
+        self.compare(other).map(Ordering::is_lt)
+    }
+
+    /// The square.
+    #[must_use]
+    fn squared(self) -> Self {
+        self.clone() * self
+    }
+}
+
+/// A double and a bound of its error: |true value - value| <= error (1 + 2^-20).
+///
+/// Unit roundoff u = 2^-53. Each operation adds its own rounding (u times the magnitude of the result, and an allowance for
+/// underflow) to what its arguments hand on. Errors are themselves computed with rounding, which loses a relative u a step;
+/// the factor 1 + 2^-20 at the comparison covers 2^30 steps. NaN and infinities fail every comparison, so they decide nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounded {
+    value: f64,
+    error: f64,
+}
+
+/// Unit roundoff, doubled: covers the rounding of the error itself.
+const U: f64 = f64::EPSILON;
+/// Covers the rounding of 2^30 errors of relative size u each.
+const SLACK: f64 = 1.0 + 1.0 / (1u64 << 20) as f64;
+/// Allowance for underflow of one operation.
+const TINY: f64 = 1e-300;
+
+impl Bounded {
+    fn rounded(value: f64, error: f64) -> Self {
+        Bounded {
+            value,
+            error: error + U * value.abs() + TINY,
+        }
+    }
+
+    /// A number not above the true value.
+    pub fn low(&self) -> f64 {
+        (self.value - self.error * SLACK).next_down()
+    }
+
+    /// A number not below the true value.
+    pub fn high(&self) -> f64 {
+        (self.value + self.error * SLACK).next_up()
+    }
+}
+
+impl Add for Bounded {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::rounded(self.value + other.value, self.error + other.error)
+    }
+}
+
+impl Sub for Bounded {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::rounded(self.value - other.value, self.error + other.error)
+    }
+}
+
+impl Mul for Bounded {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let error = self.value.abs() * other.error
+            + other.value.abs() * self.error
+            + self.error * other.error;
+        Self::rounded(self.value * other.value, error)
+    }
+}
+
+impl Div for Bounded {
+    type Output = Self;
+    /// With q = a/b rounded: |a'/b' - q| <= (ea + |q| eb)/(|b| - eb), unknown unless eb < |b|/2.
+    fn div(self, other: Self) -> Self {
+        let q = self.value / other.value;
+        let room = other.value.abs() - other.error;
+        let error = if other.error < 0.5 * other.value.abs() {
+            (self.error + q.abs() * other.error) / room
+        } else {
+            f64::NAN
+        };
+        Self::rounded(q, 2.0 * error)
+    }
+}
+
+impl Scalar for Bounded {
+    fn of(x: f64) -> Self {
+        Bounded {
+            value: x,
+            error: 0.0,
+        }
+    }
+
+    /// |sqrt(x') - sqrt(x)| <= e/sqrt(x), unknown unless e < x/2.
+    fn root(self) -> Self {
+        let s = self.value.sqrt();
+        let error = if self.error < 0.5 * self.value {
+            self.error / s
+        } else {
+            f64::NAN
+        };
+        Self::rounded(s, 2.0 * error)
+    }
+
+    fn compare(&self, other: &Self) -> Option<Ordering> {
+        let gap = self.value - other.value;
+        let error = (self.error + other.error + U * gap.abs()) * SLACK;
+        if gap > error {
+            Some(Ordering::Greater)
+        } else if -gap > error {
+            Some(Ordering::Less)
+        } else {
+            None
+        }
+    }
+
+    fn min(self, other: Self) -> Self {
+        let value = if self.value < other.value {
+            self.value
+        } else {
+            other.value
+        };
+        Bounded {
+            value,
+            error: larger_error(self, other),
+        }
+    }
+
+    fn max(self, other: Self) -> Self {
+        let value = if self.value < other.value {
+            other.value
+        } else {
+            self.value
+        };
+        Bounded {
+            value,
+            error: larger_error(self, other),
+        }
+    }
+
+    fn display(&self) -> f64 {
+        self.value
+    }
+}
+
+/// The larger of two errors, NaN if one is.
+fn larger_error(a: Bounded, b: Bounded) -> f64 {
+    if a.error < b.error {
+        b.error
+    } else if b.error <= a.error {
+        a.error
+    } else {
+        f64::NAN
+    }
+}
+
+/// Two rationals with the true value between them (closed).
+#[derive(Clone, Debug)]
+pub struct Enclosure {
+    low: Rational,
+    high: Rational,
+    /// Cleared by a division by an interval that holds 0 and by the root of a negative number.
+    known: bool,
+}
+
+impl Enclosure {
+    /// An exact value.
+    pub fn exact(x: Rational) -> Self {
+        Enclosure {
+            high: x.clone(),
+            low: x,
+            known: true,
+        }
+    }
+
+    /// The value, if it is known exactly.
+    pub fn rational(&self) -> Option<&Rational> {
+        (self.known && self.low == self.high).then_some(&self.low)
+    }
+
+    /// A number not above the true value.
+    pub fn low(&self) -> &Rational {
+        &self.low
+    }
+
+    fn unknown() -> Self {
+        Enclosure {
+            low: Rational::of(0.0),
+            high: Rational::of(0.0),
+            known: false,
+        }
+    }
+
+    fn span(corners: [Rational; 4], known: bool) -> Self {
+        // an array of four has a least and a greatest element
+        let low = corners.iter().min().unwrap().clone();
+        let high = corners.iter().max().unwrap().clone();
+        Enclosure { low, high, known }
+    }
+}
+
+impl Add for Enclosure {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Enclosure {
+            low: self.low + other.low,
+            high: self.high + other.high,
+            known: self.known && other.known,
+        }
+    }
+}
+
+impl Sub for Enclosure {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Enclosure {
+            low: self.low - other.high,
+            high: self.high - other.low,
+            known: self.known && other.known,
+        }
+    }
+}
+
+impl Mul for Enclosure {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let known = self.known && other.known;
+        if self.low == self.high && other.low == other.high {
+            return Enclosure {
+                known,
+                ..Self::exact(self.low * other.low)
+            };
+        }
+        let (a, b, c, d) = (&self.low, &self.high, &other.low, &other.high);
+        Self::span([a * c, a * d, b * c, b * d], known)
+    }
+}
+
+impl Div for Enclosure {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        let known = self.known && other.known;
+        if other.low.sign().is_le() && other.high.sign().is_ge() {
+            return Self::unknown();
+        }
+        if self.low == self.high && other.low == other.high {
+            return Enclosure {
+                known,
+                ..Self::exact(self.low / other.low)
+            };
+        }
+        let (a, b, c, d) = (&self.low, &self.high, &other.low, &other.high);
+        Self::span([a / c, a / d, b / c, b / d], known)
+    }
+}
+
+impl Scalar for Enclosure {
+    fn of(x: f64) -> Self {
+        Self::exact(Rational::of(x))
+    }
+
+    fn root(self) -> Self {
+        match (self.low.root(), self.high.root()) {
+            (Some((low, _)), Some((_, high))) => Enclosure {
+                low,
+                high,
+                known: self.known,
+            },
+            _ => Self::unknown(),
+        }
+    }
+
+    fn compare(&self, other: &Self) -> Option<Ordering> {
+        if !(self.known && other.known) {
+            None
+        } else if self.high < other.low {
+            Some(Ordering::Less)
+        } else if self.low > other.high {
+            Some(Ordering::Greater)
+        } else if self.low == self.high && other.low == other.high {
+            Some(Ordering::Equal)
+        } else {
+            None
+        }
+    }
+
+    /// Also where intervals touch at one point, which `compare` cannot name.
+    fn at_most(&self, other: &Self) -> Option<bool> {
+        if self.known && other.known && self.high <= other.low {
+            Some(true)
+        } else {
+            self.compare(other).map(Ordering::is_le)
+        }
+    }
+
+    fn min(self, other: Self) -> Self {
+        let known = self.known && other.known;
+        Enclosure {
+            low: std::cmp::min(self.low, other.low),
+            high: std::cmp::min(self.high, other.high),
+            known,
+        }
+    }
+
+    fn max(self, other: Self) -> Self {
+        let known = self.known && other.known;
+        Enclosure {
+            low: std::cmp::max(self.low, other.low),
+            high: std::cmp::max(self.high, other.high),
+            known,
+        }
+    }
+
+    fn display(&self) -> f64 {
+        if self.known {
+            self.low.to_f64()
+        } else {
+            f64::NAN
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_are_exact_where_they_can_be() {
+        let nine_quarters = Rational::ratio(9, 4);
+        assert_eq!(
+            nine_quarters.root(),
+            Some((Rational::ratio(3, 2), Rational::ratio(3, 2)))
+        );
+        let (low, high) = Rational::of(2.0).root().unwrap();
+        assert!(low.squared() < Rational::of(2.0) && Rational::of(2.0) < high.squared());
+        assert!((high - low) < Rational::of(2f64.powi(-155)));
+        assert_eq!(Rational::of(-1.0).root(), None);
+    }
+
+    #[test]
+    fn both_types_enclose_the_same_value() {
+        // (sqrt(2) + 0.1)^2 / 3 - sqrt(0.7), step by step
+        fn formula<N: Scalar>() -> N {
+            (N::of(2.0).root() + N::of(0.1)).squared() / N::of(3.0) - N::of(0.7).root()
+        }
+        let fast = formula::<Bounded>();
+        let slow = formula::<Enclosure>();
+        assert!(Rational::of(fast.low()) <= slow.low && slow.high <= Rational::of(fast.high()));
+        assert!(fast.high() - fast.low() < 1e-14);
+    }
+
+    #[test]
+    fn equality_is_left_to_the_rationals() {
+        let sum = |a: f64, b: f64| Bounded::of(a) + Bounded::of(b);
+        assert_eq!(sum(0.5, 0.5).compare(&Bounded::of(1.0)), None);
+        assert_eq!(sum(0.5, 0.5).at_most(&Bounded::of(1.0 + 1e-12)), Some(true));
+        let exact = Enclosure::of(0.5) + Enclosure::of(0.5);
+        assert_eq!(exact.compare(&Enclosure::of(1.0)), Some(Ordering::Equal));
+        let root = Enclosure::of(2.0).root();
+        assert_eq!(root.clone().squared().compare(&Enclosure::of(2.0)), None);
+        assert_eq!(Enclosure::of(-2.0).root().compare(&root), None);
+    }
+}

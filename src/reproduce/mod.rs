@@ -1,0 +1,3 @@
+//! Top floor, beside the command line: the tables and figures of the papers, published, ours, corrected.
+
+pub mod published;
