@@ -1,1 +1,16 @@
 //! Floor 2: the statement of a domain and its conditions.
+//!
+//! `normalise` brings coordinates into the range in which everything below is exact; `prepare` finds all that is wrong,
+//! repairs what can be repaired without a new coordinate, and notes what the user may want to know. What needs a
+//! triangulation (regions, seeds) is examined by `doctor`, with the findings this module provides.
+
+mod crossings;
+mod finding;
+mod normalise;
+mod repair;
+mod sweep;
+mod validate;
+
+pub use finding::{Element, Finding, Findings, Kind, LISTED_PER_KIND, Severity, merge_findings};
+pub use normalise::{GREATEST_COORDINATE, LARGEST_SCALE, LEAST_COORDINATE, Scale, normalise};
+pub use validate::{Prepared, prepare};
