@@ -22,7 +22,12 @@ pub(super) struct Crossings {
 }
 
 /// Decides about each suspect. `order`: the vertices in lexicographic order.
-pub(super) fn crossings<K: Kernel>(points: &[Point2], order: &[u32], spans: &[Span], suspects: &[u32]) -> Crossings {
+pub(super) fn crossings<K: Kernel>(
+    points: &[Point2],
+    order: &[u32],
+    spans: &[Span],
+    suspects: &[u32],
+) -> Crossings {
     let mut found = Crossings::default();
     if suspects.is_empty() {
         return found;
@@ -37,14 +42,21 @@ pub(super) fn crossings<K: Kernel>(points: &[Point2], order: &[u32], spans: &[Sp
         let mut inside: Vec<u32> = Vec::new();
         vertices.visit::<K>([a, b], &mut visits, |i| {
             let v = order[i as usize];
-            if !ends.contains(&v) && K::orient2d(a, b, points[v as usize]) == Sign::Zero {
+            let p = points[v as usize];
+            let within = (p.cmpge(a.min(b)) & p.cmple(a.max(b))).all();
+            if within && !ends.contains(&v) && K::orient2d(a, b, p) == Sign::Zero {
                 inside.push(i);
             }
         });
         // Positions in the lexicographic order ascend along the segment.
         inside.sort_unstable();
-        let cuts: Vec<Point2> = inside.iter().map(|&i| points[order[i as usize] as usize]).collect();
-        found.incidences.extend(inside.iter().map(|&i| (s, order[i as usize])));
+        let cuts: Vec<Point2> = inside
+            .iter()
+            .map(|&i| points[order[i as usize] as usize])
+            .collect();
+        found
+            .incidences
+            .extend(inside.iter().map(|&i| (s, order[i as usize])));
         segments.visit::<K>([a, b], &mut visits, |t| {
             let [c, d] = corners(t);
             if found.pairs.len() < MOST_CROSSINGS
@@ -68,7 +80,9 @@ pub(super) fn crossings<K: Kernel>(points: &[Point2], order: &[u32], spans: &[Sp
 fn meets_vertex<K: Kernel>(along: &[Point2], a: Point2, [c, d]: [Point2; 2]) -> bool {
     let near = K::orient2d(c, d, a);
     let beyond = along.partition_point(|&p| K::orient2d(c, d, p) == near);
-    along.get(beyond).is_some_and(|&p| K::orient2d(c, d, p) == Sign::Zero)
+    along
+        .get(beyond)
+        .is_some_and(|&p| K::orient2d(c, d, p) == Sign::Zero)
 }
 
 /// A balanced tree of bounding boxes over items with a box each.
@@ -100,7 +114,10 @@ impl Boxes {
                 [a.min(b), a.max(b)]
             })
             .collect();
-        let mut tree = Boxes { nodes: Vec::new(), items: (0..count as u32).collect() };
+        let mut tree = Boxes {
+            nodes: Vec::new(),
+            items: (0..count as u32).collect(),
+        };
         let mut items = std::mem::take(&mut tree.items);
         if count > 0 {
             tree.build(&boxes, &mut items, 0);
@@ -117,7 +134,11 @@ impl Boxes {
             high = high.max(boxes[i as usize][1]);
         }
         let node = self.nodes.len();
-        self.nodes.push(Node { low, high, content: Content::Items(offset, items.len() as u32) });
+        self.nodes.push(Node {
+            low,
+            high,
+            content: Content::Items(offset, items.len() as u32),
+        });
         if items.len() <= LEAF {
             return;
         }
@@ -139,7 +160,9 @@ impl Boxes {
         let (low, high) = (a.min(b), a.max(b));
         let mut stack = vec![0u32];
         while let Some(i) = stack.pop() {
-            let Some(node) = self.nodes.get(i as usize) else { return };
+            let Some(node) = self.nodes.get(i as usize) else {
+                return;
+            };
             if *visits == 0 {
                 return;
             }
@@ -149,7 +172,9 @@ impl Boxes {
             }
             match node.content {
                 Content::Items(from, count) => {
-                    self.items[from as usize..(from + count) as usize].iter().for_each(|&item| f(item));
+                    self.items[from as usize..(from + count) as usize]
+                        .iter()
+                        .for_each(|&item| f(item));
                 }
                 Content::Second(second) => stack.extend([second, i + 1]),
             }
@@ -162,5 +187,7 @@ fn beside<K: Kernel>(a: Point2, b: Point2, node: &Node) -> bool {
     let Node { low, high, .. } = *node;
     let first = K::orient2d(a, b, low);
     first != Sign::Zero
-        && [high, Point2::new(low.x, high.y), Point2::new(high.x, low.y)].iter().all(|&c| K::orient2d(a, b, c) == first)
+        && [high, Point2::new(low.x, high.y), Point2::new(high.x, low.y)]
+            .iter()
+            .all(|&c| K::orient2d(a, b, c) == first)
 }

@@ -14,3 +14,8 @@ mod validate;
 pub use finding::{Element, Finding, Findings, Kind, LISTED_PER_KIND, Severity, merge_findings};
 pub use normalise::{GREATEST_COORDINATE, LARGEST_SCALE, LEAST_COORDINATE, Scale, normalise};
 pub use validate::{Prepared, prepare};
+
+#[cfg(test)]
+mod test_kernel;
+#[cfg(test)]
+mod tests;
