@@ -177,7 +177,8 @@ pub struct End {
     pub counts: Counts,
     /// blake3 of the canonical mesh, in hexadecimal.
     pub mesh: String,
-    /// blake3 of the binary form of all records before this one, in hexadecimal; filled in by the writer.
+    /// blake3 of the binary form of all that precedes this digest, the other fields of the end included, in hexadecimal; filled in by
+    /// the writer.
     pub trace: String,
 }
 
