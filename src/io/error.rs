@@ -52,7 +52,10 @@ pub(super) fn shown(text: &str) -> String {
             out.push_str("...");
             break;
         }
-        out.extend(c.escape_debug());
+        match c {
+            '"' | '\'' | '\\' => out.push(c),
+            _ => out.extend(c.escape_debug()),
+        }
     }
     out
 }

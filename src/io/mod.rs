@@ -5,12 +5,16 @@
 //! mesher is for `domain` to say.
 
 mod angle;
+mod chains;
+mod cursor;
 mod error;
 mod foreign;
+mod geojson;
 mod input;
 mod number;
 mod rows;
 mod triangle;
+mod wkt;
 pub mod write;
 
 #[cfg(test)]
@@ -18,5 +22,7 @@ mod tests;
 
 pub use error::ReadError;
 pub use foreign::{ForeignEdge, ForeignMesh, MeshLines};
+pub use geojson::parse_geojson;
 pub use input::{Input, Note, NoteKind};
 pub use triangle::{TriangleFiles, parse_node, parse_node_ele, parse_poly, poly_wants_node};
+pub use wkt::parse_wkt;

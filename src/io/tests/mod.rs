@@ -1,10 +1,12 @@
 //! Tests of readers and writers: tables of what must be read and what must be refused, and round trips.
 
+mod geometry;
 mod triangle;
 
 use crate::io::ReadError;
 use crate::model::{Edge, Mesh2, MeshEdge, Point2, SegmentId, VertexId, VertexKind};
 use std::fmt::Debug;
+use std::path::PathBuf;
 
 /// Asserts that a reader refuses each of some files with exactly the sentence given.
 fn refuses<T: Debug>(read: impl Fn(&[u8]) -> Result<T, ReadError>, cases: &[(&[u8], &str)]) {
@@ -29,6 +31,18 @@ fn survives<T>(read: impl Fn(&[u8]) -> Result<T, ReadError>, good: &[u8]) {
             let _ = read(&bad);
         }
     }
+}
+
+/// The folder of real inputs; says so where it is absent.
+fn data() -> Option<PathBuf> {
+    let default = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data");
+    let data =
+        std::env::var_os("ORTHOBALL_DATA").map_or_else(|| PathBuf::from(default), PathBuf::from);
+    let there = data.join("pslg/as_poly").is_dir();
+    if !there {
+        println!("skipped: no corpus at {}", data.display());
+    }
+    there.then_some(data)
 }
 
 /// Two regions side by side with all that a mesh may carry.

@@ -4,7 +4,6 @@ use crate::io::{
     write,
 };
 use crate::model::{Point2, VertexId};
-use std::path::PathBuf;
 
 const SQUARE: &str = "# a square\n4 2 1 1\n 0 0 0 .5 1\n 1 1 0 -1 2 # here\n 2 1 1 0 3\n\n 3 0 1e0 0 4\n4 1\n1 0 1 7\n2 1 2 8\n3 2 3 9\n9 3 0 -1\n1\n1 .5 .5\n2\n1 .1 .1 3 0.01\n2 .9 .9 4 -1\n";
 
@@ -309,15 +308,9 @@ fn bad_ele() {
 /// All of the corpus is read, with the counts that the headers state.
 #[test]
 fn corpus() {
-    let default = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data");
-    let data =
-        std::env::var_os("ORTHOBALL_DATA").map_or_else(|| PathBuf::from(default), PathBuf::from);
-    let Ok(folder) = std::fs::read_dir(data.join("pslg/as_poly")) else {
-        println!("skipped: no corpus at {}", data.display());
-        return;
-    };
+    let Some(data) = super::data() else { return };
     let mut files = 0;
-    for entry in folder {
+    for entry in std::fs::read_dir(data.join("pslg/as_poly")).unwrap() {
         let path = entry.unwrap().path();
         let bytes = std::fs::read(&path).unwrap();
         let input = poly(&bytes).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
