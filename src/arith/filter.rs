@@ -1,0 +1,143 @@
+//! Stage one: an f64 with a running bound of its error, and the semi-static filters of the hottest predicates.
+//!
+//! A filter may decline, never guess. With u = 2^-53, an operation's rounded value r differs from the exact value of its
+//! rounded arguments by at most u|r| (plus 2^-1075 for a product that underflows, covered by `TINY`). The bounds are
+//! themselves computed with rounding; each step loses a relative u, and `SLACK` at the end covers thousands of them.
+
+use super::kernel::Corners;
+use super::poly::Ring;
+use crate::model::{Point2, Sign};
+
+/// Half an ulp of 1.
+const U: f64 = f64::EPSILON / 2.0;
+/// More than the underflow of all products that go into one product and its bound.
+const TINY: f64 = 1e-300;
+/// Covers the rounding of the bounds themselves.
+const SLACK: f64 = 1.0 + 1e-6;
+
+/// An f64 within `err` of the exact value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounded {
+    value: f64,
+    err: f64,
+}
+
+impl Bounded {
+    /// The sign, if the bound allows to tell it. Overflow makes the bound infinite or NaN, and the comparison false.
+    #[inline]
+    pub fn sign(self) -> Option<Sign> {
+        let bound = self.err * SLACK;
+        if self.value > bound {
+            Some(Sign::Positive)
+        } else if self.value < -bound {
+            Some(Sign::Negative)
+        } else {
+            None
+        }
+    }
+}
+
+impl Ring for Bounded {
+    #[inline]
+    fn of(x: f64) -> Bounded {
+        Bounded { value: x, err: 0.0 }
+    }
+    #[inline]
+    fn difference(a: f64, b: f64) -> Bounded {
+        let value = a - b;
+        Bounded {
+            value,
+            err: U * value.abs(),
+        }
+    }
+    #[inline]
+    fn plus(&self, other: &Bounded) -> Bounded {
+        let value = self.value + other.value;
+        Bounded {
+            value,
+            err: self.err + other.err + U * value.abs(),
+        }
+    }
+    #[inline]
+    fn minus(&self, other: &Bounded) -> Bounded {
+        let value = self.value - other.value;
+        Bounded {
+            value,
+            err: self.err + other.err + U * value.abs(),
+        }
+    }
+    #[inline]
+    fn times(&self, other: &Bounded) -> Bounded {
+        let value = self.value * other.value;
+        let inherited = self.value.abs() * other.err + (other.value.abs() + other.err) * self.err;
+        Bounded {
+            value,
+            err: inherited + U * value.abs() + TINY,
+        }
+    }
+    #[inline]
+    fn doubled(&self) -> Bounded {
+        Bounded {
+            value: 2.0 * self.value,
+            err: 2.0 * self.err,
+        }
+    }
+    /// Order statistics move by at most the largest error of the values they are taken of.
+    #[inline]
+    fn two_largest([a, b, c]: [Bounded; 3]) -> (Bounded, Bounded) {
+        // Zero for finite values, NaN otherwise: a value that overflowed must not be sorted away.
+        let overflow = (a.value + b.value + c.value) * 0.0;
+        let err = a.err.max(b.err).max(c.err) + overflow;
+        let (low, high) = (a.value.min(b.value), a.value.max(b.value));
+        let (middle, high) = (low.max(high.min(c.value)), high.max(c.value));
+        (Bounded { value: middle, err }, Bounded { value: high, err })
+    }
+}
+
+/// Sign of cross(a, b, c) where the filter can tell.
+///
+/// Two products of rounded differences and one subtraction; Shewchuk's bound (3 + 16u) u (|left| + |right|), 1997.
+/// No term underflows: coordinates are multiples of 2^-194, so a product is 0 or at least 2^-388.
+#[inline]
+pub(super) fn orient2d(a: Point2, b: Point2, c: Point2) -> Option<Sign> {
+    const BOUND: f64 = (3.0 + 16.0 * U) * U;
+    let left = (a.x - c.x) * (b.y - c.y);
+    let right = (a.y - c.y) * (b.x - c.x);
+    sign_beyond(left - right, BOUND * (left.abs() + right.abs()))
+}
+
+/// Position of q against the circle of t where the filter can tell.
+///
+/// With X, Y the largest |differences|, the six terms of the lifted determinant are each at most X Y (X^2 + Y^2), and
+/// each is the product of at most 11 factors 1 + delta, |delta| <= u (4 of a lift, 4 of a cross product, 1, 2 sums):
+/// the error is below 66 (1 + small) u X Y (X^2 + Y^2), 7.33e-15 without the small.
+/// No term underflows: coordinates are multiples of 2^-194, so the determinant is one of 2^-776.
+#[inline]
+pub(super) fn in_circle([a, b, c]: Corners, q: Point2) -> Option<Sign> {
+    const BOUND: f64 = 8e-15;
+    let (ax, ay, bx, by, cx, cy) = (
+        a.x - q.x,
+        a.y - q.y,
+        b.x - q.x,
+        b.y - q.y,
+        c.x - q.x,
+        c.y - q.y,
+    );
+    let ta = (ax * ax + ay * ay) * (bx * cy - by * cx);
+    let tb = (bx * bx + by * by) * (cx * ay - cy * ax);
+    let tc = (cx * cx + cy * cy) * (ax * by - ay * bx);
+    let x = ax.abs().max(bx.abs()).max(cx.abs());
+    let y = ay.abs().max(by.abs()).max(cy.abs());
+    sign_beyond(ta + tb + tc, BOUND * (x * y) * (x * x + y * y))
+}
+
+#[inline]
+fn sign_beyond(value: f64, bound: f64) -> Option<Sign> {
+    if value > bound {
+        Some(Sign::Positive)
+    } else if value < -bound {
+        Some(Sign::Negative)
+    } else {
+        None
+    }
+}
