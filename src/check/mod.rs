@@ -3,3 +3,4 @@
 pub mod grading;
 pub mod rational;
 pub mod scalar;
+pub mod spacing;

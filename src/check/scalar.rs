@@ -15,6 +15,8 @@ pub trait Scalar:
 {
     /// The exact value of a finite double.
     fn of(x: f64) -> Self;
+    /// A number of which nothing is known.
+    fn unknown() -> Self;
     /// The square root; of a number that may be negative it is unknown.
     fn root(self) -> Self;
     /// The order, if it is known.
@@ -78,6 +80,17 @@ impl Bounded {
     pub fn high(&self) -> f64 {
         (self.value + self.error * SLACK).next_up()
     }
+
+    /// Any value from low to high.
+    pub fn between(low: f64, high: f64) -> Self {
+        let value = low + (high - low) / 2.0;
+        Self::rounded(value, (high - low) * (1.0 + 4.0 * U))
+    }
+
+    /// Whether there is an error bound at all.
+    pub fn is_known(&self) -> bool {
+        self.value.is_finite() && self.error.is_finite()
+    }
 }
 
 impl Add for Bounded {
@@ -124,6 +137,13 @@ impl Scalar for Bounded {
         Bounded {
             value: x,
             error: 0.0,
+        }
+    }
+
+    fn unknown() -> Self {
+        Bounded {
+            value: f64::NAN,
+            error: f64::NAN,
         }
     }
 
@@ -219,7 +239,17 @@ impl Enclosure {
         &self.low
     }
 
-    fn unknown() -> Self {
+    /// The same as a double with an error bound.
+    pub fn rounded(&self) -> Bounded {
+        if self.known {
+            // conversions are off by less than a unit in the last place
+            Bounded::between(self.low.to_f64().next_down(), self.high.to_f64().next_up())
+        } else {
+            Bounded::unknown()
+        }
+    }
+
+    fn nothing() -> Self {
         Enclosure {
             low: Rational::of(0.0),
             high: Rational::of(0.0),
@@ -277,7 +307,7 @@ impl Div for Enclosure {
     fn div(self, other: Self) -> Self {
         let known = self.known && other.known;
         if other.low.sign().is_le() && other.high.sign().is_ge() {
-            return Self::unknown();
+            return Self::nothing();
         }
         if self.low == self.high && other.low == other.high {
             return Enclosure {
@@ -295,6 +325,10 @@ impl Scalar for Enclosure {
         Self::exact(Rational::of(x))
     }
 
+    fn unknown() -> Self {
+        Self::nothing()
+    }
+
     fn root(self) -> Self {
         match (self.low.root(), self.high.root()) {
             (Some((low, _)), Some((_, high))) => Enclosure {
@@ -302,7 +336,7 @@ impl Scalar for Enclosure {
                 high,
                 known: self.known,
             },
-            _ => Self::unknown(),
+            _ => Self::nothing(),
         }
     }
 
