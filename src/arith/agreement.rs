@@ -5,11 +5,12 @@
 
 use super::exact::ExactKernel;
 use super::fast::{FastKernel, stages};
-use super::kernel::Kernel;
+use super::kernel::{Corners, Kernel};
 use super::philox::philox4x32;
 use super::plain::PlainKernel;
 use super::{angle, round, scale};
 use crate::model::{Point2, Sign};
+use rug::Rational;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Family {
@@ -414,4 +415,79 @@ fn the_plain_kernel_is_found_out() {
         });
         assert!(differs.count() > 20, "{family:?}");
     }
+}
+
+/// A polynomial in an infinitesimal, by ascending powers.
+type Infinitesimal = Vec<Rational>;
+
+fn product(a: &Infinitesimal, b: &Infinitesimal) -> Infinitesimal {
+    let mut c = vec![Rational::new(); a.len() + b.len() - 1];
+    for (i, x) in a.iter().enumerate() {
+        for (j, y) in b.iter().enumerate() {
+            c[i + j] += Rational::from(x * y);
+        }
+    }
+    c
+}
+
+fn determinant(m: &[Vec<Infinitesimal>]) -> Infinitesimal {
+    if m.len() == 1 {
+        return m[0][0].clone();
+    }
+    let mut sum: Infinitesimal = vec![];
+    for row in 0..m.len() {
+        let minor: Vec<Vec<Infinitesimal>> = (0..m.len())
+            .filter(|&r| r != row)
+            .map(|r| m[r][1..].to_vec())
+            .collect();
+        let term = product(&m[row][0], &determinant(&minor));
+        sum.resize(sum.len().max(term.len()), Rational::new());
+        for (s, t) in sum.iter_mut().zip(term) {
+            if row % 2 == 0 { *s += t } else { *s -= t }
+        }
+    }
+    sum
+}
+
+/// in_conflict by its definition: the sign of the lifted determinant with infinitesimals in it.
+fn in_conflict_by_definition(t: Corners, q: Point2) -> bool {
+    let points = [t[0], t[1], t[2], q];
+    let rows: Vec<Vec<Infinitesimal>> = points
+        .iter()
+        .map(|p| {
+            let above = points.iter().filter(|o| (o.x, o.y) > (p.x, p.y)).count();
+            let (x, y) = (
+                Rational::from_f64(p.x).unwrap(),
+                Rational::from_f64(p.y).unwrap(),
+            );
+            let mut lift = vec![Rational::new(); above + 2];
+            lift[0] = x.clone().square() + y.clone().square();
+            lift[above + 1] = Rational::from(1);
+            vec![vec![x], vec![y], lift, vec![Rational::from(1)]]
+        })
+        .collect();
+    let det = determinant(&rows);
+    det.into_iter().find(|c| *c != 0).is_some_and(|c| c > 0)
+}
+
+#[test]
+fn conflicts_are_those_of_the_perturbed_lift() {
+    let mut ties = 0;
+    for family in FAMILIES {
+        for number in 0..cases() / 4 {
+            let case = Case::new(family, number);
+            let [a, b, c, q, ..] = case.p;
+            let t = [a, b, c];
+            if case.proper && !t.contains(&q) {
+                ties += u32::from(FastKernel::in_circle(t, q) == Sign::Zero);
+                assert_eq!(
+                    FastKernel::in_conflict(t, q),
+                    in_conflict_by_definition(t, q),
+                    "{family:?} {number}: {:?}",
+                    case.p
+                );
+            }
+        }
+    }
+    assert!(ties > 100, "only {ties} ties met");
 }

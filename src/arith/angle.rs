@@ -171,3 +171,89 @@ fn versine(x: &IBig, bits: usize) -> (IBig, IBig) {
     // its own floors: below 16 in all. The tail is below 16 as well, the first term left out being below 1.
     (sum, IBig::from(16 * (k + 1)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values of an independent evaluation with 120 decimal digits, rounded down.
+    #[test]
+    fn bounds_of_angles_are_rounded_down() {
+        for (degrees, expected) in [
+            (20.7, 0x4000_01d2_111d_a8b3u64),
+            (25.0, 0x3ff6_6548_a52e_b4d4),
+            (28.6, 0x3ff1_74c4_c8c1_e29b),
+            (33.0, 0x3fea_f82f_5f7b_727e),
+            (1.0, 0x4089_a647_873c_c127),
+            (15.0, 0x400d_db3d_742c_2655),
+            (26.565051177077986, 0x3ff4_0000_0000_0001),
+            (1e-9, 0x4446_3ec2_e0c9_07d4),
+            (1e-100, 0x6a10_c0b9_75a9_661f),
+            (29.999999999999996, 0x3ff0_0000_0000_0000),
+            (30.000000000000004, 0x3fef_ffff_ffff_fffe),
+            (60.0, 0x3fd5_5555_5555_5555),
+            (89.99999999, 0x3fd0_0000_0000_0000),
+        ] {
+            assert_eq!(
+                rho2_from_min_angle(degrees).unwrap().to_bits(),
+                expected,
+                "{degrees}"
+            );
+        }
+        assert_eq!(rho2_from_min_angle(30.0), Ok(1.0));
+        assert_eq!(rho2_from_min_angle(45.0), Ok(0.5));
+    }
+
+    #[test]
+    fn impossible_angles_are_refused() {
+        for degrees in [
+            0.0,
+            -0.0,
+            -1.0,
+            90.0,
+            1e300,
+            f64::INFINITY,
+            f64::NAN,
+            f64::from_bits(1),
+        ] {
+            assert!(rho2_from_min_angle(degrees).is_err(), "{degrees}");
+        }
+    }
+
+    #[test]
+    fn kappa_where_both_roots_are_rational() {
+        // rho = 5/8: sqrt(25/64 - 16/64) = 3/8.
+        assert_eq!(kappa(25.0 / 64.0), 0.99);
+        assert_eq!(kappa(0.25), 0.495);
+    }
+
+    /// The definition without roots: m < 99/100 (sqrt a + sqrt b) iff s = (100 m/99)^2 - a - b is negative or s^2 < 4 a b.
+    #[cfg(feature = "exact")]
+    #[test]
+    fn kappa_is_the_nearest_f64() {
+        use rug::Rational;
+        let rational = |x: f64| Rational::from_f64(x).unwrap();
+        for rho2 in [
+            1.0,
+            2.0,
+            1.3997274830283475,
+            0.26,
+            1.25,
+            820.7849259134717,
+            1e200,
+            0.25f64.next_up(),
+        ] {
+            let (a, b) = (rational(rho2), rational(rho2) - rational(0.25));
+            let below = |m: Rational| {
+                let s: Rational = (m * Rational::from((100, 99))).square() - &a - &b;
+                s < 0 || s.square() < Rational::from(&a * &b) * 4u32
+            };
+            let k = kappa(rho2);
+            let middle = |other: f64| (rational(k) + rational(other)) / 2u32;
+            assert!(
+                below(middle(k.next_down())) && !below(middle(k.next_up())),
+                "{rho2}"
+            );
+        }
+    }
+}

@@ -30,7 +30,7 @@ pub(super) struct DoubleDouble {
 
 /// a + b = s + e exactly.
 #[inline]
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     let bb = s - a;
     (s, (a - (s - bb)) + (b - bb))
@@ -54,7 +54,7 @@ fn split(a: f64) -> (f64, f64) {
 
 /// a b = p + e exactly, unless something under- or overflows (Dekker).
 #[inline]
-fn two_product(a: f64, b: f64) -> (f64, f64) {
+pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     let ((ah, al), (bh, bl)) = (split(a), split(b));
     (p, al * bl - (((p - ah * bh) - al * bh) - ah * bl))

@@ -4,6 +4,7 @@
 //! on the same polynomials (`poly`). `robust` decides what the filters of orient2d leave open.
 //! Constructions start with double-double: an f64 error bound never certifies a rounding, except far from the origin.
 
+use super::construct;
 use super::double_double::DoubleDouble;
 use super::dyadic::Dyadic;
 use super::filter::{self, Bounded};
@@ -209,7 +210,8 @@ impl Kernel for FastKernel {
 
     #[inline]
     fn is_skinny(t: Corners, rho2: f64) -> bool {
-        !sign_of!(skinny(t, rho2)).is_negative()
+        filter::is_skinny(t, rho2)
+            .unwrap_or_else(|| !sign_without_filter!(skinny(t, rho2)).is_negative())
     }
 
     #[inline]
@@ -293,7 +295,9 @@ impl Kernel for FastKernel {
     }
 
     fn circumcenter(t: Corners) -> Result<Point2, OutOfRange> {
-        in_range(rounded_center!(t[0], circumcenter(t)))
+        in_range(
+            construct::circumcenter(t).unwrap_or_else(|| rounded_center!(t[0], circumcenter(t))),
+        )
     }
 
     fn in_disk(t: Corners, d2: f64, x: f64, y: f64) -> Result<Point2, OutOfRange> {
@@ -335,7 +339,7 @@ fn orient2d_adaptively(a: Point2, b: Point2, c: Point2) -> Sign {
 
 #[inline(never)]
 fn in_circle_without_filter(t: Corners, q: Point2) -> Sign {
-    sign_without_filter!(in_circle(t, q))
+    filter::in_circle_on_grid(t, q).unwrap_or_else(|| sign_without_filter!(in_circle(t, q)))
 }
 
 /// How many answers each stage gave, per thread; only tests count.

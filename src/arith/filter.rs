@@ -4,8 +4,10 @@
 //! rounded arguments by at most u|r| (plus 2^-1075 for a product that underflows, covered by `TINY`). The bounds are
 //! themselves computed with rounding; each step loses a relative u, and `SLACK` at the end covers thousands of them.
 
+use super::double_double::two_sum;
 use super::kernel::Corners;
 use super::poly::Ring;
+use super::scale;
 use crate::model::{Point2, Sign};
 
 /// Half an ulp of 1.
@@ -129,6 +131,83 @@ pub(super) fn in_circle([a, b, c]: Corners, q: Point2) -> Option<Sign> {
     let x = ax.abs().max(bx.abs()).max(cx.abs());
     let y = ay.abs().max(by.abs()).max(cy.abs());
     sign_beyond(ta + tb + tc, BOUND * (x * y) * (x * x + y * y))
+}
+
+/// Position of q against the circle of t by integers of 128 bits, where the differences to q are exact and multiples of
+/// 2^-30 of a power of two above the largest: every tie on a grid, and decisions close to one.
+///
+/// Differences become integers below 2^30, lifts and cross products are below 2^61, the sum of three products below 2^124.
+pub(super) fn in_circle_on_grid([a, b, c]: Corners, q: Point2) -> Option<Sign> {
+    let exact = [
+        two_sum(a.x, -q.x),
+        two_sum(a.y, -q.y),
+        two_sum(b.x, -q.x),
+        two_sum(b.y, -q.y),
+        two_sum(c.x, -q.x),
+        two_sum(c.y, -q.y),
+    ];
+    let mut largest = 0.0f64;
+    for (difference, tail) in exact {
+        if tail != 0.0 {
+            return None;
+        }
+        largest = largest.max(difference.abs());
+    }
+    let e = 30 - scale::exponent_of(largest);
+    if !(-1000..=1000).contains(&e) {
+        return None;
+    }
+    let factor = scale::power_of_two(e);
+    let mut integer = [0i64; 6];
+    for (n, (difference, _)) in integer.iter_mut().zip(exact) {
+        let scaled = difference * factor;
+        *n = scaled as i64;
+        if *n as f64 != scaled {
+            return None;
+        }
+    }
+    let [ax, ay, bx, by, cx, cy] = integer;
+    let term = |lift: i64, cross: i64| i128::from(lift) * i128::from(cross);
+    let det = term(ax * ax + ay * ay, bx * cy - by * cx)
+        + term(bx * bx + by * by, cx * ay - cy * ax)
+        + term(cx * cx + cy * cy, ax * by - ay * bx);
+    Some(match det.signum() {
+        1 => Sign::Positive,
+        0 => Sign::Zero,
+        _ => Sign::Negative,
+    })
+}
+
+/// Whether m2 n2 >= 4 rho2 cross^2 where the filter can tell.
+///
+/// Rounded differences have relative error u. So m2 n2 is within 9u (1 + small) of itself (4u a square length, 1u their
+/// product; order statistics move no more than what they are taken of), the cross product within 4u (1 + small) of the sum
+/// of its terms' magnitudes, and 4 rho2 times its square within 3u (1 + small) of itself.
+/// Nothing underflows but products with rho2: m2 n2 >= cross^2, so where 4 rho2 cross is subnormal m2 n2 is larger by far.
+/// What overflows to infinity is larger than m2 n2 <= 2^806.
+#[inline]
+pub(super) fn is_skinny([a, b, c]: Corners, rho2: f64) -> Option<bool> {
+    let (ex, ey, fx, fy, gx, gy) = (
+        b.x - a.x,
+        b.y - a.y,
+        c.x - a.x,
+        c.y - a.y,
+        c.x - b.x,
+        c.y - b.y,
+    );
+    let (k, l, m) = (ex * ex + ey * ey, fx * fx + fy * fy, gx * gx + gy * gy);
+    let longest2 = (k * l).max(l * m).max(m * k);
+    let (left, right) = (ex * fy, ey * fx);
+    let cross = (left - right).abs();
+    let slip = 5.0 * U * (left.abs() + right.abs());
+    let (low, high) = ((cross - slip).max(0.0), cross + slip);
+    if longest2 > (1.0 + 20.0 * U) * (4.0 * rho2 * high * high) {
+        Some(true)
+    } else if longest2 < (1.0 - 20.0 * U) * (4.0 * rho2 * low * low) {
+        Some(false)
+    } else {
+        None
+    }
 }
 
 #[inline]

@@ -6,6 +6,7 @@
 #[cfg(all(test, feature = "exact"))]
 mod agreement;
 pub mod angle;
+mod construct;
 mod double_double;
 mod dyadic;
 #[cfg(feature = "exact")]
