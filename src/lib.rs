@@ -8,6 +8,7 @@ pub mod domain;
 pub mod generators;
 pub mod io;
 pub mod model;
+pub mod refine;
 pub mod reproduce;
 pub mod trace;
 pub mod triangulation;

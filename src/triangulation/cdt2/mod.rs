@@ -22,11 +22,13 @@ mod test_kernel;
 #[cfg(test)]
 mod tests;
 mod validate;
+mod visible;
 
 pub use carve::{CarveError, Seed};
 pub use locate::Location;
 pub use store::{Cdt2, Change, HalfEdge, TriId};
 pub use validate::Violation;
+pub use visible::{Target, Walk};
 
 use crate::model::{SegmentId, VertexId};
 

@@ -1,0 +1,119 @@
+//! Selection regions of stored points, and users' choices in them. Source: [GCDR] Definitions 3.1-3.3.
+
+use super::Refiner;
+use crate::arith::Kernel;
+use crate::model::{Choice, DiskChoice, Point2, Triangle, VertexId};
+use crate::refine::{DiskRequest, IntervalRequest, RunError};
+use crate::trace::SplitKind;
+
+/// Relative slack within which a rounded point still counts for a level: 2^-20.
+const SLACK: f64 = 1.0 / (1u64 << 20) as f64;
+
+/// How far stored points stray from their regions: not, by rounding, or further.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Stray {
+    Exact,
+    Rounded,
+    Outside,
+}
+
+impl<K: Kernel> Refiner<'_, '_, K> {
+    pub(super) fn note_disk(&mut self, corners: [Point2; 3], a: Point2) {
+        let d2 = self.params.d2;
+        self.note(|delta| K::in_selection_disk(corners, delta, a), d2);
+    }
+
+    pub(super) fn note_interval(&mut self, s: [VertexId; 2], kind: SplitKind, p: Point2) {
+        let delta = if kind == SplitKind::B {
+            self.params.d1
+        } else {
+            self.params.mu
+        };
+        let [u, v] = s.map(|v| self.cdt.point(v));
+        self.note(|delta| K::in_selection_interval(u, v, delta, p), delta);
+    }
+
+    fn note(&mut self, holds: impl Fn(f64) -> bool, delta: f64) {
+        if self.stray == Stray::Outside || holds(delta) {
+            return;
+        }
+        self.stray = if holds(slackened(delta)) {
+            Stray::Rounded
+        } else {
+            Stray::Outside
+        };
+    }
+
+    pub(super) fn user_disk(
+        &mut self,
+        ids: Triangle,
+        corners: [Point2; 3],
+        center: Point2,
+    ) -> Result<Point2, RunError> {
+        if self.params.choice_a != DiskChoice::User {
+            return Ok(center);
+        }
+        let chooser = self
+            .options
+            .chooser
+            .as_mut()
+            .ok_or(RunError::MissingFunction)?;
+        let request = DiskRequest {
+            corners: corners.map(|p| self.scale.to_input(p)),
+            ids,
+            center: self.scale.to_input(center),
+            d2: self.params.d2,
+        };
+        let point = chooser.in_disk(&request);
+        let normal = self.scale.to_normal(point);
+        let inside =
+            point.is_finite() && K::in_selection_disk(corners, slackened(self.params.d2), normal);
+        if inside {
+            Ok(normal)
+        } else {
+            Err(RunError::RegionViolation {
+                point,
+                place: format!("triangle {ids:?}"),
+            })
+        }
+    }
+
+    pub(super) fn user_interval(
+        &mut self,
+        choice: Choice,
+        ids: [VertexId; 2],
+        delta: f64,
+        chosen: Point2,
+    ) -> Result<Point2, RunError> {
+        if choice != Choice::User {
+            return Ok(chosen);
+        }
+        let chooser = self
+            .options
+            .chooser
+            .as_mut()
+            .ok_or(RunError::MissingFunction)?;
+        let [u, v] = ids.map(|v| self.cdt.point(v));
+        let request = IntervalRequest {
+            ends: [u, v].map(|p| self.scale.to_input(p)),
+            ids,
+            delta,
+        };
+        let point = chooser.in_interval(&request);
+        let normal = self.scale.to_normal(point);
+        let inside = point.is_finite() && K::in_selection_interval(u, v, slackened(delta), normal);
+        if inside {
+            Ok(normal)
+        } else {
+            Err(RunError::RegionViolation {
+                point,
+                place: format!("subsegment {ids:?}"),
+            })
+        }
+    }
+}
+
+/// delta (1 - 2^-20), rounded down: the product of two f64s is within half an ulp of its rounded value.
+pub(super) fn slackened(delta: f64) -> f64 {
+    (delta * (1.0 - SLACK)).next_down()
+}

@@ -1,0 +1,202 @@
+//! Splitting an encroached subsegment: its type, its point, what is deleted for it. Source: [GCDR] Algorithm 2, lines 6-14.
+
+use super::choose::on_segment;
+use super::{Kind, Refiner};
+use crate::arith::Kernel;
+use crate::model::{DeletionPolicy, Point2, SegmentId, VertexId};
+use crate::trace::{Shell, SkipReason, SplitKind};
+use crate::triangulation::cdt2::{Target, TriId};
+
+/// A split that is to be made.
+pub(super) struct Split {
+    /// The subsegment, the smaller id first.
+    pub s: [VertexId; 2],
+    /// Its input segment.
+    pub segment: SegmentId,
+    /// Type-B or Type-C.
+    pub kind: SplitKind,
+    /// The new point.
+    pub p: Point2,
+    /// The shell it lies on.
+    pub shell: Option<Shell>,
+}
+
+/// A disk by the ends of a diameter.
+type Diameter = [Point2; 2];
+
+impl<K: Kernel> Refiner<'_, '_, K> {
+    /// The non-free vertices seen strictly inside Diam(s). Type-C iff there is one.
+    pub(super) fn non_free_seen(&mut self, s: [VertexId; 2]) -> Vec<VertexId> {
+        if !self.an_apex_encroaches(s) {
+            return Vec::new();
+        }
+        let diameter = s.map(|v| self.cdt.point(v));
+        let mut found = self.vertices_near(s, &[diameter]);
+        found.retain(|&w| {
+            self.kinds[w.index()] != Kind::Free && self.cdt.sees(w, s, Target::Interior)
+        });
+        found
+    }
+
+    /// Whether the apex of a triangle at s lies strictly inside Diam(s); if none does, no vertex seen from s does.
+    fn an_apex_encroaches(&self, [u, v]: [VertexId; 2]) -> bool {
+        let (pu, pv) = (self.cdt.point(u), self.cdt.point(v));
+        [self.cdt.find_edge(u, v), self.cdt.find_edge(v, u)]
+            .into_iter()
+            .flatten()
+            .any(|e| K::in_diametral_circle(pu, pv, self.cdt.point(self.cdt.apex(e))).is_positive())
+    }
+
+    /// The point of Type-B (delta1) or Type-C (mu), and its shell. Choice 1: concentric shells at apexes.
+    pub(super) fn split_point(
+        &mut self,
+        s: [VertexId; 2],
+        type_c: bool,
+    ) -> Result<(Point2, Option<Shell>), super::RunError> {
+        let ends = s.map(|v| self.cdt.point(v));
+        match s.map(|v| self.is_apex(v)) {
+            [true, true] => return Ok((K::midpoint(ends[0], ends[1]), None)),
+            [false, false] => {}
+            [at_u, _] => {
+                let (apex, from, to) = if at_u {
+                    (s[0], ends[0], ends[1])
+                } else {
+                    (s[1], ends[1], ends[0])
+                };
+                let k = K::shell_exponent(ends[0], ends[1]);
+                return Ok((K::at_distance(from, to, k), Some(Shell { apex, k })));
+            }
+        }
+        let (choice, delta) = if type_c {
+            (self.params.choice_c, self.params.mu)
+        } else {
+            (self.params.choice_b, self.params.d1)
+        };
+        let chosen = on_segment::<K>(&self.params, choice, delta, ends, self.draws());
+        let p = self.user_interval(choice, s, delta, chosen)?;
+        Ok((p, None))
+    }
+
+    /// The free vertices that the split at p deletes, ascending.
+    pub(super) fn to_delete(&mut self, s: [VertexId; 2], p: Point2) -> Vec<VertexId> {
+        let [u, v] = s.map(|v| self.cdt.point(v));
+        let disks = [[u, v], [u, p], [p, v]];
+        let mut found = match self.params.deletion {
+            DeletionPolicy::Disk => self.all_in(&disks),
+            // p exactly on s: the small disks lie in Diam(s), and no vertex is seen there unless an apex of s is
+            _ if K::orient2d(u, v, p) == crate::model::Sign::Zero
+                && !self.an_apex_encroaches(s) =>
+            {
+                Vec::new()
+            }
+            _ => self.vertices_near(s, &disks),
+        };
+        found.retain(|&w| {
+            self.kinds[w.index()] == Kind::Free
+                && match self.params.deletion {
+                    DeletionPolicy::Segment => self.cdt.sees(w, s, Target::Interior),
+                    DeletionPolicy::Point => self.cdt.sees(w, s, Target::Point(p)),
+                    DeletionPolicy::Disk => true,
+                }
+        });
+        found.sort_unstable();
+        found
+    }
+
+    /// The parent of a Type-C point: the closest to p of the vertices that see it, ties by id.
+    pub(super) fn parent(
+        &self,
+        s: [VertexId; 2],
+        p: Point2,
+        mut seen: Vec<VertexId>,
+    ) -> Result<VertexId, SkipReason> {
+        seen.sort_by(|&a, &b| {
+            let (pa, pb) = (self.cdt.point(a), self.cdt.point(b));
+            K::compare_lengths(p, pa, p, pb).then(a.cmp(&b))
+        });
+        seen.into_iter()
+            .find(|&w| self.cdt.sees(w, s, Target::Point(p)))
+            .ok_or(SkipReason::Resolution)
+    }
+
+    /// Whether every triangle that the split makes at s is positively oriented.
+    pub(super) fn splits_properly(&self, [u, v]: [VertexId; 2], p: Point2) -> bool {
+        let (pu, pv) = (self.cdt.point(u), self.cdt.point(v));
+        let proper = |from: Point2, to: Point2, apex: Point2| {
+            K::orient2d(from, p, apex).is_positive() && K::orient2d(p, to, apex).is_positive()
+        };
+        let left = self
+            .cdt
+            .find_edge(u, v)
+            .map(|e| self.cdt.point(self.cdt.apex(e)));
+        let right = self
+            .cdt
+            .find_edge(v, u)
+            .map(|e| self.cdt.point(self.cdt.apex(e)));
+        left.is_none_or(|a| proper(pu, pv, a)) && right.is_none_or(|b| proper(pv, pu, b))
+    }
+
+    /// Vertices other than the ends of s, strictly inside one of the disks, found by flooding them from the triangles at s
+    /// across unconstrained edges. Every vertex seen from s inside a disk is among them.
+    fn vertices_near(&mut self, [u, v]: [VertexId; 2], disks: &[Diameter]) -> Vec<VertexId> {
+        self.flood_number += 1;
+        let mut found = Vec::new();
+        let mut todo: Vec<TriId> = Vec::new();
+        for e in [self.cdt.find_edge(u, v), self.cdt.find_edge(v, u)]
+            .into_iter()
+            .flatten()
+        {
+            todo.push(self.cdt.triangle_of(e));
+        }
+        while let Some(t) = todo.pop() {
+            if !self.mark(t) {
+                continue;
+            }
+            for e in self.cdt.edges(t) {
+                let (a, b) = (self.cdt.origin(e), self.cdt.destination(e));
+                let (pa, pb) = (self.cdt.point(a), self.cdt.point(b));
+                if a != u && a != v && is_inside::<K>(pa, disks) {
+                    found.push(a);
+                }
+                if self.cdt.segment(e).is_none()
+                    && disks
+                        .iter()
+                        .any(|&[c, d]| K::edge_meets_diametral_disk(c, d, pa, pb))
+                    && let Some(twin) = self.cdt.twin(e)
+                {
+                    todo.push(self.cdt.triangle_of(twin));
+                }
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// Marks a triangle in the current flood; false if it was.
+    fn mark(&mut self, t: TriId) -> bool {
+        let k = t.0 as usize;
+        if self.flood_marks.len() <= k {
+            self.flood_marks.resize(k + 1, 0);
+        }
+        let fresh = self.flood_marks[k] != self.flood_number;
+        self.flood_marks[k] = self.flood_number;
+        fresh
+    }
+
+    /// All vertices of the mesh strictly inside one of the disks.
+    fn all_in(&self, disks: &[Diameter]) -> Vec<VertexId> {
+        (0..self.kinds.len() as u32)
+            .map(VertexId)
+            .filter(|&w| {
+                is_inside::<K>(self.cdt.point(w), disks) && self.cdt.edge_from(w).is_some()
+            })
+            .collect()
+    }
+}
+
+fn is_inside<K: Kernel>(w: Point2, disks: &[Diameter]) -> bool {
+    disks
+        .iter()
+        .any(|&[c, d]| K::in_diametral_circle(c, d, w).is_positive())
+}

@@ -1,0 +1,10 @@
+//! Floor 5: the refiners. The only writers of events.
+
+pub mod gcdr;
+mod level;
+mod run;
+mod triangulate;
+
+pub use level::least_d2;
+pub use run::{Chooser, DiskRequest, IntervalRequest, Options, Run, RunError, Unmet};
+pub use triangulate::triangulate;
