@@ -3,6 +3,7 @@
 
 pub mod arith;
 pub mod check;
+pub mod cli;
 pub mod domain;
 #[cfg(any(test, feature = "generators"))]
 pub mod generators;

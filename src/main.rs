@@ -1,1 +1,5 @@
-fn main() {}
+//! The program `orthoball`.
+
+fn main() -> std::process::ExitCode {
+    orthoball::cli::run(std::env::args_os())
+}

@@ -104,21 +104,20 @@ impl<R: BufRead> Sink for Comparing<R> {
 
 /// The first difference of two traces, `None` if they have the same content (their forms may differ).
 ///
-/// Errors: those of reading either.
+/// Errors: that of reading the first trace (0) or the second (1).
 pub fn first_divergence<R: BufRead, S: BufRead>(
     mut first: Reader<R>,
     mut second: Reader<S>,
-) -> Result<Option<Divergence>, DecodeError> {
+) -> Result<Option<Divergence>, (usize, DecodeError)> {
     let mut state = State::default();
     let (mut a_bytes, mut b_bytes) = (Vec::new(), Vec::new());
-    for number in 0.. {
-        let (a, b) = (first.next().transpose()?, second.next().transpose()?);
+    let mut number = 0;
+    loop {
+        let a = first.next().transpose().map_err(|e| (0, e))?;
+        let b = second.next().transpose().map_err(|e| (1, e))?;
         let (Some(x), Some(y)) = (&a, &b) else {
-            return Ok(if a.is_none() && b.is_none() {
-                None
-            } else {
-                Some(locate(number, a.as_ref(), b.as_ref(), &state))
-            });
+            let equal = a.is_none() && b.is_none();
+            return Ok((!equal).then(|| locate(number, a.as_ref(), b.as_ref(), &state)));
         };
         a_bytes.clear();
         b_bytes.clear();
@@ -130,9 +129,8 @@ pub fn first_divergence<R: BufRead, S: BufRead>(
             return Ok(Some(locate(number, a.as_ref(), b.as_ref(), &state)));
         }
         state.advance(x);
+        number += 1;
     }
-    // The loop above ends by returning: traces are finite.
-    Ok(None)
 }
 
 fn locate(

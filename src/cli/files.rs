@@ -1,0 +1,95 @@
+//! Files: read whole; written whole or not at all, several together.
+
+use super::Failure;
+use std::fs::{self, File, OpenOptions};
+use std::io::{BufReader, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// The bytes of a file.
+pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    fs::read(path).map_err(|e| Failure::at(path, e))
+}
+
+/// A file to be read bit by bit.
+pub fn open(path: &Path) -> Result<BufReader<File>, Failure> {
+    File::open(path)
+        .map(|file| BufReader::with_capacity(1 << 16, file))
+        .map_err(|e| Failure::at(path, e))
+}
+
+/// The extension of a path in lower case; empty if it has none.
+pub fn extension(path: &Path) -> String {
+    path.extension()
+        .map(|e| e.to_string_lossy().to_lowercase())
+        .unwrap_or_default()
+}
+
+/// Files on their way. Each is written beside its place under another name; `commit` renames all. Dropped before that, they are gone.
+#[derive(Debug, Default)]
+pub struct Staged {
+    /// Place and present name.
+    files: Vec<(PathBuf, PathBuf)>,
+}
+
+impl Staged {
+    /// Begins a file that is to appear at `path`.
+    pub fn create(&mut self, path: &Path) -> Result<BufWriter<File>, Failure> {
+        let Some(name) = path.file_name() else {
+            return Err(Failure::at(path, "names no file"));
+        };
+        if path.is_dir() {
+            return Err(Failure::at(path, "is a folder"));
+        }
+        if self.files.iter().any(|(place, _)| place == path) {
+            return Err(Failure::at(path, "is named twice"));
+        }
+        let mut hidden = std::ffi::OsString::from(".");
+        hidden.push(name);
+        hidden.push(format!(".{}", std::process::id()));
+        let present = path.with_file_name(hidden);
+        let file = OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(&present)
+            .map_err(|e| Failure::at(path, e))?;
+        self.files.push((path.to_path_buf(), present));
+        Ok(BufWriter::with_capacity(1 << 16, file))
+    }
+
+    /// Writes a whole file that is to appear at `path`.
+    pub fn write(&mut self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+        let mut file = self.create(path)?;
+        file.write_all(bytes)
+            .and_then(|()| file.flush())
+            .map_err(|e| Failure::at(path, e))
+    }
+
+    /// Where the file that is to appear at `path` is now.
+    pub fn present(&self, path: &Path) -> Option<&Path> {
+        let found = self.files.iter().find(|(place, _)| place == path);
+        found.map(|(_, present)| present.as_path())
+    }
+
+    /// Lets all files appear. If one cannot, those that already did are taken away again.
+    pub fn commit(mut self) -> Result<(), Failure> {
+        for (i, (place, present)) in self.files.iter().enumerate() {
+            if let Err(e) = fs::rename(present, place) {
+                let failure = Failure::at(place, e);
+                for (place, _) in self.files.drain(..i) {
+                    let _ = fs::remove_file(place);
+                }
+                return Err(failure);
+            }
+        }
+        self.files.clear();
+        Ok(())
+    }
+}
+
+impl Drop for Staged {
+    fn drop(&mut self) {
+        for (_, present) in &self.files {
+            let _ = fs::remove_file(present);
+        }
+    }
+}

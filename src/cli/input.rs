@@ -1,0 +1,177 @@
+//! Inputs: read by extension, examined, and what is wrong with them told.
+
+use super::files::{extension, read};
+use super::{Failure, data, talk};
+use crate::arith::FastKernel;
+use crate::domain::{Finding, Prepared, Severity, prepare};
+use crate::io::{self, Input, Note, NoteKind, ReadError};
+use crate::model::{Fill, Lines};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// The extensions that `read_input` knows, for messages.
+pub const INPUTS: &str = ".poly, .node, .wkt, .geojson, .json";
+
+/// One thing found in an input, by the reader or by the examination of what was read.
+#[derive(Debug)]
+pub struct Entry {
+    /// Its weight.
+    pub severity: Severity,
+    /// For people.
+    pub text: String,
+    /// For programs: severity, kind, elements, coordinates, line, message, fix.
+    pub json: Value,
+}
+
+/// An input read and made ready.
+#[derive(Debug)]
+pub struct Loaded {
+    /// What is to be meshed, with the findings of its examination.
+    pub prepared: Prepared,
+    /// Where the elements of the file stood.
+    pub lines: Lines,
+    /// What was found, errors first.
+    pub entries: Vec<Entry>,
+}
+
+/// Reads and examines an input. A fault of the file is an entry of its own, and the only one. Errors: the file cannot be opened, or its
+/// extension says nothing.
+pub fn load(path: &Path, fill: Option<Fill>) -> Result<Loaded, Failure> {
+    let mut input = match read_input(path)? {
+        Ok(input) => input,
+        Err(e) => {
+            let (prepared, lines) = (Prepared::default(), Lines::default());
+            return Ok(Loaded {
+                prepared,
+                lines,
+                entries: vec![syntax(&e)],
+            });
+        }
+    };
+    if let Some(fill) = fill {
+        input.pslg.fill = fill;
+    }
+    let prepared = prepare::<FastKernel>(&input.pslg, &input.lines);
+    let notes = input.notes.iter().map(note);
+    let mut entries: Vec<Entry> = notes.chain(prepared.findings.iter().map(finding)).collect();
+    entries.sort_by_key(|e| e.severity);
+    Ok(Loaded {
+        prepared,
+        lines: input.lines,
+        entries,
+    })
+}
+
+/// Reads an input by its extension; the inner error is a fault of its content.
+pub fn read_input(path: &Path) -> Result<Result<Input, ReadError>, Failure> {
+    let bytes = read(path)?;
+    Ok(match extension(path).as_str() {
+        "poly" => {
+            let node = if io::poly_wants_node(&bytes) {
+                Some(read(&path.with_extension("node"))?)
+            } else {
+                None
+            };
+            io::parse_poly(&bytes, node.as_deref())
+        }
+        "node" => io::parse_node(&bytes),
+        "wkt" => io::parse_wkt(&bytes),
+        "json" | "geojson" => io::parse_geojson(&bytes),
+        other => {
+            return Err(Failure::at(
+                path,
+                format_args!("inputs end in {INPUTS}, not in .{other}"),
+            ));
+        }
+    })
+}
+
+impl Loaded {
+    /// Whether the input is to be refused.
+    pub fn refused(&self) -> bool {
+        self.entries.iter().any(|e| e.severity == Severity::Error)
+    }
+
+    /// Adds findings that only a triangulation could make.
+    pub fn add(&mut self, more: &[Finding]) {
+        self.entries.extend(more.iter().map(finding));
+        self.entries.sort_by_key(|e| e.severity);
+    }
+
+    /// Tells that the input is refused, and why: all errors on stderr, all findings on stdout if a program listens.
+    pub fn tell_refusal(&self, path: &Path, json: bool) -> Result<(), Failure> {
+        for entry in self
+            .entries
+            .iter()
+            .filter(|e| e.severity == Severity::Error)
+        {
+            talk(format_args!("{}: {}", path.display(), entry.text));
+        }
+        if json {
+            data(
+                json!({"outcome": "refused", "input": path.display().to_string(), "findings": self.json()}),
+            )?;
+        }
+        Ok(())
+    }
+
+    /// All findings for programs.
+    pub fn json(&self) -> Value {
+        self.entries.iter().map(|e| e.json.clone()).collect()
+    }
+
+    /// How many findings have a severity.
+    pub fn count(&self, severity: Severity) -> usize {
+        self.entries
+            .iter()
+            .filter(|e| e.severity == severity)
+            .count()
+    }
+}
+
+/// A finding as an entry.
+pub fn finding(f: &Finding) -> Entry {
+    // Plain data has a JSON form.
+    let json = serde_json::to_value(f).expect("findings are plain data");
+    Entry {
+        severity: f.severity(),
+        text: f.to_string(),
+        json,
+    }
+}
+
+fn syntax(e: &ReadError) -> Entry {
+    let line = (e.line > 0).then_some(e.line);
+    let message = if e.element.is_empty() {
+        e.problem.clone()
+    } else {
+        format!("{}: {}", e.element, e.problem)
+    };
+    let column = (e.column > 0).then_some(e.column);
+    let json = json!({
+        "severity": "error", "kind": "syntax", "part": e.part, "elements": [], "coordinates": [],
+        "line": line, "column": column, "message": message, "fix": e.fix,
+    });
+    Entry {
+        severity: Severity::Error,
+        text: format!("error: {e}"),
+        json,
+    }
+}
+
+fn note(n: &Note) -> Entry {
+    let (severity, name) = match n.kind {
+        NoteKind::Repair => (Severity::Repair, "repair"),
+        NoteKind::Note => (Severity::Note, "note"),
+    };
+    let line = (n.line > 0).then_some(n.line);
+    let place = line.map_or(String::new(), |l| format!(" (line {l})"));
+    let json = json!({
+        "severity": name, "kind": "format", "elements": [], "coordinates": [], "line": line, "message": n.text, "fix": "none needed",
+    });
+    Entry {
+        severity,
+        text: format!("{name}: {}{place}", n.text),
+        json,
+    }
+}

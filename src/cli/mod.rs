@@ -1,0 +1,89 @@
+//! Top floor: the command line. Arguments, files, exit codes, and the choice of kernel; no geometry.
+//!
+//! Stdout is data, stderr is talk. Exit codes: 0 all well; 1 the answer is no; 2 wrong usage, unreadable or refused input, I/O; 3 a budget
+//! or an interrupt stopped the run; 101 a bug. Files are written whole or not at all (`files`).
+
+mod args;
+mod convert;
+mod diff;
+mod doctor;
+mod files;
+mod input;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use std::ffi::OsString;
+use std::fmt;
+use std::io::Write;
+use std::process::ExitCode;
+
+/// How a command that could do its work ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Status {
+    /// All well.
+    Well = 0,
+    /// The answer is no.
+    No = 1,
+    /// The input was refused; what is wrong with it has been told.
+    Refused = 2,
+    /// A budget or an interrupt ended the run.
+    Stopped = 3,
+}
+
+/// Why a command could not do its work: one sentence. Exit code 2.
+#[derive(Debug)]
+struct Failure(String);
+
+impl Failure {
+    fn new(sentence: impl fmt::Display) -> Self {
+        Failure(sentence.to_string())
+    }
+
+    /// A failure about a file.
+    fn at(path: &std::path::Path, problem: impl fmt::Display) -> Self {
+        Failure(format!("{}: {problem}", path.display()))
+    }
+}
+
+type Answer = Result<Status, Failure>;
+
+/// Runs the program with the given arguments, the first being its name, and says with what code to exit.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(args) {
+        Ok(arguments) => arguments,
+        Err(e) => {
+            // Help and version are data and well; what clap cannot print it cannot print.
+            let _ = e.print();
+            return ExitCode::from(if e.use_stderr() { 2 } else { 0 });
+        }
+    };
+    match dispatch(&arguments.command) {
+        Ok(status) => ExitCode::from(status as u8),
+        Err(Failure(sentence)) => {
+            talk(format_args!("orthoball: {sentence}"));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn dispatch(command: &Command) -> Answer {
+    match command {
+        Command::Doctor(args) => doctor::run(args),
+        Command::Diff(args) => diff::run(args),
+        Command::Convert(args) => convert::run(args),
+        _ => Err(Failure::new("not wired")),
+    }
+}
+
+/// A line on stderr. A closed stderr is no reason to fail.
+fn talk(line: impl fmt::Display) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// A line on stdout.
+fn data(line: impl fmt::Display) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{line}")
+        .and_then(|()| out.flush())
+        .map_err(|e| Failure::new(format_args!("stdout: {e}")))
+}
