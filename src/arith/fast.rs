@@ -179,7 +179,7 @@ impl Kernel for FastKernel {
 
     #[inline]
     fn walk_side(t: Corners, q: Point2, w: Point2) -> Sign {
-        sign_of!(walk_side(t, q, w))
+        filter::walk_side(t, q, w).unwrap_or_else(|| sign_without_filter!(walk_side(t, q, w)))
     }
 
     fn edge_meets_diametral_disk(u: Point2, v: Point2, a: Point2, b: Point2) -> bool {

@@ -110,13 +110,14 @@ pub(super) fn orient2d(a: Point2, b: Point2, c: Point2) -> Option<Sign> {
 
 /// Position of q against the circle of t where the filter can tell.
 ///
-/// With X, Y the largest |differences|, the six terms of the lifted determinant are each at most X Y (X^2 + Y^2), and
-/// each is the product of at most 11 factors 1 + delta, |delta| <= u (4 of a lift, 4 of a cross product, 1, 2 sums):
-/// the error is below 66 (1 + small) u X Y (X^2 + Y^2), 7.33e-15 without the small.
+/// The determinant is the sum of three products of a lift and a cross product. Each is made of terms with at most 11
+/// factors 1 + delta, |delta| <= u (4 of the lift, 4 of the cross product, 1, 2 sums). By Cauchy's inequality the terms of
+/// b x c sum to at most |b||c| <= (|b|^2 + |c|^2)/2 in magnitude, so all together sum to at most the sum s of the products
+/// of two lifts: the error is below 11 (1 + small) u s, 1.2213e-15 s.
 /// No term underflows: coordinates are multiples of 2^-194, so the determinant is one of 2^-776.
 #[inline]
 pub(super) fn in_circle([a, b, c]: Corners, q: Point2) -> Option<Sign> {
-    const BOUND: f64 = 8e-15;
+    const BOUND: f64 = 1.25e-15;
     let (ax, ay, bx, by, cx, cy) = (
         a.x - q.x,
         a.y - q.y,
@@ -125,12 +126,28 @@ pub(super) fn in_circle([a, b, c]: Corners, q: Point2) -> Option<Sign> {
         c.x - q.x,
         c.y - q.y,
     );
-    let ta = (ax * ax + ay * ay) * (bx * cy - by * cx);
-    let tb = (bx * bx + by * by) * (cx * ay - cy * ax);
-    let tc = (cx * cx + cy * cy) * (ax * by - ay * bx);
-    let x = ax.abs().max(bx.abs()).max(cx.abs());
-    let y = ay.abs().max(by.abs()).max(cy.abs());
-    sign_beyond(ta + tb + tc, BOUND * (x * y) * (x * x + y * y))
+    let (la, lb, lc) = (ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy);
+    let det = la * (bx * cy - by * cx) + lb * (cx * ay - cy * ax) + lc * (ax * by - ay * bx);
+    sign_beyond(det, BOUND * (la * (lb + lc) + lb * lc))
+}
+
+/// Sign of cross(centroid, q, w) where the filter can tell.
+///
+/// A coordinate of 3q minus the sum of the corners has error at most 3u (1 + small) times the sum of its magnitudes, a
+/// product of two such 7u, the difference of two products 8u. No term underflows, as in `orient2d`.
+#[inline]
+pub(super) fn walk_side([a, b, c]: Corners, q: Point2, w: Point2) -> Option<Sign> {
+    const BOUND: f64 = 9.0 * U;
+    let sum = |p: f64, a: f64, b: f64, c: f64| {
+        let (a, b, c) = (p - a, p - b, p - c);
+        (a + b + c, a.abs() + b.abs() + c.abs())
+    };
+    let ((qx, qx_size), (qy, qy_size)) = (sum(q.x, a.x, b.x, c.x), sum(q.y, a.y, b.y, c.y));
+    let ((wx, wx_size), (wy, wy_size)) = (sum(w.x, a.x, b.x, c.x), sum(w.y, a.y, b.y, c.y));
+    sign_beyond(
+        qx * wy - qy * wx,
+        BOUND * (qx_size * wy_size + qy_size * wx_size),
+    )
 }
 
 /// Position of q against the circle of t by integers of 128 bits, where the differences to q are exact and multiples of
