@@ -8,21 +8,31 @@ mod angle;
 mod chains;
 mod cursor;
 mod error;
+mod flat;
 mod foreign;
+mod format;
 mod geojson;
 mod input;
+mod msh;
 mod number;
+mod off;
 mod rows;
 mod triangle;
+mod vtu;
 mod wkt;
 pub mod write;
+mod xml;
 
 #[cfg(test)]
 mod tests;
 
 pub use error::ReadError;
 pub use foreign::{ForeignEdge, ForeignMesh, MeshLines};
+pub use format::{Format, read_mesh, read_pslg, write_mesh};
 pub use geojson::parse_geojson;
 pub use input::{Input, Note, NoteKind};
+pub use msh::parse_msh;
+pub use off::parse_off;
 pub use triangle::{TriangleFiles, parse_node, parse_node_ele, parse_poly, poly_wants_node};
+pub use vtu::parse_vtu;
 pub use wkt::parse_wkt;

@@ -55,6 +55,8 @@ pub(super) struct Rows<'a> {
     lines: std::str::Lines<'a>,
     line: u32,
     size: usize,
+    /// What starts a comment.
+    comment: Option<char>,
 }
 
 impl<'a> Rows<'a> {
@@ -66,7 +68,16 @@ impl<'a> Rows<'a> {
             lines,
             line: 0,
             size: bytes.len(),
+            comment: Some('#'),
         })
+    }
+
+    /// The same rows where nothing starts a comment.
+    pub(super) fn without_comments(self) -> Rows<'a> {
+        Rows {
+            comment: None,
+            ..self
+        }
     }
 
     /// The next row, or nothing at the end of the file.
@@ -74,7 +85,10 @@ impl<'a> Rows<'a> {
         loop {
             let whole = self.lines.next()?;
             self.line = self.line.saturating_add(1);
-            let body = whole.split('#').next().unwrap_or("");
+            let body = whole
+                .split(|c| Some(c) == self.comment)
+                .next()
+                .unwrap_or("");
             if !body.trim_ascii().is_empty() {
                 return Some(Row {
                     part: self.part,
@@ -89,14 +103,21 @@ impl<'a> Rows<'a> {
 
     /// The next row; its absence is an error that says what is missing.
     pub(super) fn expect(&mut self, element: Element) -> Result<Row<'a>, ReadError> {
-        self.next(element).ok_or_else(|| ReadError {
+        let fix = "the file is truncated or declares too many elements";
+        self.next(element)
+            .ok_or_else(|| self.fault(element, "the file ends before it", fix))
+    }
+
+    /// An error about what stands up to the row read last.
+    pub(super) fn fault(&self, element: Element, problem: &str, fix: &str) -> ReadError {
+        ReadError {
             part: self.part,
             line: self.line,
             element: element.to_string(),
-            problem: "the file ends before it".into(),
-            fix: "the file is truncated or declares too many elements".into(),
+            problem: problem.into(),
+            fix: fix.into(),
             ..ReadError::default()
-        })
+        }
     }
 
     /// That nothing but comments follows.
@@ -261,6 +282,11 @@ impl<'a> Row<'a> {
             ));
         }
         Ok(count as usize)
+    }
+
+    /// All that is left of the row, without white space around it.
+    pub(super) fn remainder(&self) -> &'a str {
+        self.rest.trim_ascii()
     }
 
     /// Whether a further field follows.

@@ -1,6 +1,7 @@
 //! Tests of readers and writers: tables of what must be read and what must be refused, and round trips.
 
 mod geometry;
+mod meshes;
 mod triangle;
 
 use crate::io::ReadError;

@@ -3,9 +3,15 @@
 //! Floats are the shortest decimals that read back the same. A mesh whose triangles are not canonical (one read from elsewhere) is
 //! written as it stands.
 
+mod msh;
+mod off;
+mod svg;
 pub mod triangle;
 mod vtu;
 
+pub use msh::{MshVersion, msh};
+pub use off::off;
+pub use svg::svg;
 pub use vtu::vtu;
 
 use super::number::push_float;

@@ -1,0 +1,469 @@
+//! Reads VTK XML unstructured grids (`.vtu`): triangles and lines of one piece.
+//!
+//! Arrays may be ASCII, inline base64, or appended (raw or base64); compressed ones are refused by name. Of the data only what our
+//! writer gives is taken: `marker` and `attribute_k` of points, `marker` and `region` of cells (`gmsh:physical` stands in for either).
+
+use super::flat::{FIX, Flat};
+use super::foreign::{ForeignEdge, ForeignMesh};
+use super::rows::{MOST_ELEMENTS, clipped, text};
+use super::xml::{Tag, TagKind, Tags};
+use super::{ReadError, error::shown, number};
+use crate::model::{Point2, VertexId};
+
+/// Reads a `.vtu` file as a planar mesh.
+///
+/// Errors: the first fault; cells other than vertices, lines and triangles and vertices off one plane z = constant are faults.
+pub fn parse_vtu(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
+    let file = File::scan(bytes)?;
+    let mut mesh = ForeignMesh::default();
+    points(&file, &mut mesh)?;
+    cells(&file, &mut mesh)?;
+    Ok(mesh)
+}
+
+/// A number of an array with its line, 0 in binary arrays.
+type Value = (f64, u32);
+
+/// The arrays of a file, not yet decoded.
+struct File<'a> {
+    arrays: Vec<(&'a str, Tag<'a>)>,
+    /// The tag of the piece.
+    piece: Tag<'a>,
+    /// Bytes of the file.
+    size: usize,
+    points: usize,
+    cells: usize,
+    big_endian: bool,
+    wide_header: bool,
+    /// Encoding of the appended data, and the bytes behind its underscore.
+    appended: Option<(&'a str, &'a [u8])>,
+}
+
+impl<'a> File<'a> {
+    fn scan(bytes: &'a [u8]) -> Result<File<'a>, ReadError> {
+        let mark = b"<AppendedData";
+        let (head, tail) = match bytes.windows(mark.len()).position(|w| w == mark) {
+            Some(at) => bytes.split_at(at),
+            None => (bytes, &[][..]),
+        };
+        let mut tags = Tags::new(text(".vtu", head)?);
+        let Some(root) = tags.next()?.filter(|t| t.name == "VTKFile") else {
+            return Err(ReadError {
+                part: ".vtu",
+                line: 1,
+                problem: "the file does not start with the tag VTKFile".into(),
+                ..ReadError::default()
+            });
+        };
+        if root.get("type") != Some("UnstructuredGrid") {
+            return Err(root.fault(
+                format!(
+                    "the type is {}",
+                    shown(root.get("type").unwrap_or("missing"))
+                ),
+                "only UnstructuredGrid is read here",
+            ));
+        }
+        if let Some(name) = root.get("compressor") {
+            return Err(root.fault(
+                format!("the arrays are compressed by {}", shown(name)),
+                "save the file uncompressed, best as ASCII",
+            ));
+        }
+        let mut arrays = Vec::new();
+        let mut piece: Option<Tag> = None;
+        let mut section = "";
+        while let Some(tag) = tags.next()? {
+            match (tag.name, tag.kind) {
+                ("Piece", TagKind::Open | TagKind::Empty) if piece.is_some() => {
+                    return Err(tag.fault("a second piece", "merge the pieces into one"));
+                }
+                ("Piece", TagKind::Open | TagKind::Empty) => piece = Some(tag),
+                ("PointData" | "CellData" | "Points" | "Cells", TagKind::Open) => {
+                    section = tag.name
+                }
+                ("PointData" | "CellData" | "Points" | "Cells", _) => section = "",
+                ("DataArray", TagKind::Open | TagKind::Empty) if !section.is_empty() => {
+                    arrays.push((section, tag))
+                }
+                _ => {}
+            }
+        }
+        let Some(piece) = piece else {
+            return Err(root.fault("it holds no piece", "the file is truncated"));
+        };
+        let count = |name: &str| {
+            let n = piece
+                .get(name)
+                .and_then(|n| n.trim_ascii().parse::<u64>().ok());
+            n.filter(|&n| n <= MOST_ELEMENTS)
+                .map(|n| n as usize)
+                .ok_or_else(|| piece.fault(format!("{name} is missing or no whole number"), ""))
+        };
+        Ok(File {
+            size: bytes.len(),
+            points: count("NumberOfPoints")?,
+            cells: count("NumberOfCells")?,
+            big_endian: root.get("byte_order") == Some("BigEndian"),
+            wide_header: root.get("header_type") == Some("UInt64"),
+            appended: appended(tail)?,
+            piece,
+            arrays,
+        })
+    }
+
+    fn array(&self, section: &str, name: &str) -> Option<&Tag<'a>> {
+        self.arrays
+            .iter()
+            .find(|(s, tag)| *s == section && (name.is_empty() || tag.get("Name") == Some(name)))
+            .map(|(_, tag)| tag)
+    }
+
+    /// The values of an array that must be there, `per` for each of `count` items; any number of them if `count` is not given.
+    fn values(
+        &self,
+        section: &str,
+        name: &str,
+        per: usize,
+        count: Option<usize>,
+    ) -> Result<Vec<Value>, ReadError> {
+        let missing = || {
+            self.piece.fault(
+                format!("the array {section} {name} is missing"),
+                "the file is truncated or no mesh",
+            )
+        };
+        let tag = self.array(section, name).ok_or_else(missing)?;
+        self.decode(tag, per, count)
+    }
+
+    /// The values of an array that may be missing.
+    fn perhaps(
+        &self,
+        section: &str,
+        name: &str,
+        count: usize,
+    ) -> Result<Option<Vec<Value>>, ReadError> {
+        self.array(section, name)
+            .map(|tag| self.decode(tag, 1, Some(count)))
+            .transpose()
+    }
+
+    fn decode(&self, tag: &Tag, per: usize, count: Option<usize>) -> Result<Vec<Value>, ReadError> {
+        let components = tag.get("NumberOfComponents").unwrap_or("1");
+        if components != per.to_string() {
+            return Err(tag.fault(
+                format!("NumberOfComponents is {}", shown(components)),
+                &format!("it must be {per}"),
+            ));
+        }
+        let values = match tag.get("format").unwrap_or("ascii") {
+            "ascii" => ascii(tag)?,
+            "binary" => self.binary(tag, &self.base64(tag, tag.text.as_bytes())?)?,
+            "appended" => {
+                let missing = || tag.fault("its appended data is missing", "the file is truncated");
+                let (encoding, data) = self.appended.ok_or_else(missing)?;
+                let offset = tag
+                    .get("offset")
+                    .and_then(|o| o.trim_ascii().parse::<usize>().ok());
+                let data = offset.and_then(|o| data.get(o..)).ok_or_else(missing)?;
+                match encoding {
+                    "raw" => self.binary(tag, data)?,
+                    _ => self.binary(tag, &self.base64(tag, data)?)?,
+                }
+            }
+            other => {
+                return Err(tag.fault(
+                    format!("the format is {}", shown(other)),
+                    "ascii, binary and appended are read here",
+                ));
+            }
+        };
+        match count.map(|n| n * per) {
+            Some(due) if due != values.len() => Err(tag.fault(
+                format!("it has {} numbers instead of {due}", values.len()),
+                "the file is damaged",
+            )),
+            _ => Ok(values),
+        }
+    }
+
+    fn base64(&self, tag: &Tag, text: &[u8]) -> Result<Vec<u8>, ReadError> {
+        from_base64(tag, text, self.header(), self.big_endian)
+    }
+
+    /// Bytes of the length that precedes a binary block.
+    fn header(&self) -> usize {
+        if self.wide_header { 8 } else { 4 }
+    }
+
+    /// Numbers of an uncompressed block: its length in bytes, then the values.
+    fn binary(&self, tag: &Tag, data: &[u8]) -> Result<Vec<Value>, ReadError> {
+        let truncated = || tag.fault("its data ends early", "the file is truncated");
+        let (head, data) = data.split_at_checked(self.header()).ok_or_else(truncated)?;
+        let length = usize::try_from(whole(head, self.big_endian)).map_err(|_| truncated())?;
+        let data = data.get(..length).ok_or_else(truncated)?;
+        let kind = tag.get("type").unwrap_or("");
+        let size = match kind {
+            "Int8" | "UInt8" => 1,
+            "Int16" | "UInt16" => 2,
+            "Int32" | "UInt32" | "Float32" => 4,
+            "Int64" | "UInt64" | "Float64" => 8,
+            other => return Err(tag.fault(format!("the type is {}", shown(other)), "")),
+        };
+        let number = |item: &[u8]| {
+            let bits = whole(item, self.big_endian);
+            match kind {
+                // The casts keep the bits that a value of this size has.
+                "Float64" => f64::from_bits(bits),
+                "Float32" => f64::from(f32::from_bits(bits as u32)),
+                "Int8" => f64::from(bits as i8),
+                "Int16" => f64::from(bits as i16),
+                "Int32" => f64::from(bits as i32),
+                "Int64" => bits as i64 as f64,
+                _ => bits as f64,
+            }
+        };
+        let values: Vec<Value> = data
+            .chunks_exact(size)
+            .map(|item| (number(item) + 0.0, 0))
+            .collect();
+        match values.iter().position(|(x, _)| !x.is_finite()) {
+            Some(i) => Err(tag.fault(format!("number {} is not finite", i + 1), "")),
+            None => Ok(values),
+        }
+    }
+}
+
+/// An unsigned integer of up to 8 bytes.
+fn whole(bytes: &[u8], big_endian: bool) -> u64 {
+    let push = |n: u64, &b: &u8| n << 8 | u64::from(b);
+    if big_endian {
+        bytes.iter().fold(0, push)
+    } else {
+        bytes.iter().rev().fold(0, push)
+    }
+}
+
+fn appended(tail: &[u8]) -> Result<Option<(&'static str, &[u8])>, ReadError> {
+    if tail.is_empty() {
+        return Ok(None);
+    }
+    let bad = |problem: &str| {
+        Err(ReadError {
+            part: ".vtu",
+            element: "AppendedData".into(),
+            problem: problem.into(),
+            ..ReadError::default()
+        })
+    };
+    let Some(end) = tail.iter().position(|&b| b == b'>') else {
+        return bad("the file ends within the tag");
+    };
+    let tag = &tail[..end];
+    let says = |word: &[u8]| tag.windows(word.len()).any(|w| w == word);
+    let encoding = if says(b"base64") {
+        "base64"
+    } else if says(b"raw") {
+        "raw"
+    } else {
+        return bad("the encoding is neither raw nor base64");
+    };
+    match tail[end..].iter().position(|&b| b == b'_') {
+        Some(at) => Ok(Some((encoding, &tail[end + at + 1..]))),
+        None => bad("the underscore that starts the data is missing"),
+    }
+}
+
+/// Decodes one block: first so much that its length is known, then all of it. White space may stand before it.
+fn from_base64(
+    tag: &Tag,
+    text: &[u8],
+    header: usize,
+    big_endian: bool,
+) -> Result<Vec<u8>, ReadError> {
+    let text = text.trim_ascii_start();
+    let bad = || {
+        tag.fault(
+            "its base64 data is damaged or ends early",
+            "the file is truncated",
+        )
+    };
+    let prefix = base64(text, header).ok_or_else(bad)?;
+    let length = usize::try_from(whole(&prefix, big_endian))
+        .ok()
+        .and_then(|n| n.checked_add(header));
+    // Four characters hold three bytes, so that a longer block cannot be here.
+    let length = length.filter(|&n| n <= text.len()).ok_or_else(bad)?;
+    base64(text, length).ok_or_else(bad)
+}
+
+/// The first bytes of base64 text; nothing if it holds fewer.
+fn base64(text: &[u8], bytes: usize) -> Option<Vec<u8>> {
+    let mut out = Vec::with_capacity(bytes);
+    let (mut bits, mut filled) = (0u32, 0);
+    for &c in text {
+        if out.len() == bytes {
+            break;
+        }
+        let six = match c {
+            b'A'..=b'Z' => c - b'A',
+            b'a'..=b'z' => c - b'a' + 26,
+            b'0'..=b'9' => c - b'0' + 52,
+            b'+' => 62,
+            b'/' => 63,
+            _ => return None,
+        };
+        bits = bits << 6 | u32::from(six);
+        filled += 6;
+        if filled >= 8 {
+            filled -= 8;
+            // The lowest byte above the bits that are left.
+            out.push((bits >> filled) as u8);
+        }
+    }
+    (out.len() == bytes).then_some(out)
+}
+
+fn ascii(tag: &Tag) -> Result<Vec<Value>, ReadError> {
+    let mut values = Vec::new();
+    for (line, row) in tag.text.split('\n').enumerate() {
+        let line = tag.text_line.saturating_add(clipped(line));
+        for field in row.split_ascii_whitespace() {
+            let x = number::finite(field).map_err(|problem| ReadError {
+                line,
+                ..tag.fault(problem, "")
+            })?;
+            values.push((x, line));
+        }
+    }
+    Ok(values)
+}
+
+fn points(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
+    let mut flat = Flat::default();
+    for (k, p) in file
+        .values("Points", "", 3, Some(file.points))?
+        .chunks_exact(3)
+        .enumerate()
+    {
+        let &[(x, line), (y, _), (z, _)] = p else {
+            continue;
+        };
+        flat.check(z, line).map_err(|problem| {
+            let element = format!("vertex {k}");
+            ReadError {
+                part: ".vtu",
+                line,
+                element,
+                problem,
+                fix: FIX.into(),
+                ..ReadError::default()
+            }
+        })?;
+        mesh.points.push(Point2::new(x, y));
+        mesh.lines.points.push(line);
+    }
+    mesh.notes.extend(flat.note());
+    if let Some(markers) = file.perhaps("PointData", "marker", file.points)? {
+        mesh.point_markers = markers.into_iter().map(|(x, _)| x as i32).collect();
+    }
+    let mut columns = Vec::new();
+    while let Some(column) = file.perhaps(
+        "PointData",
+        &format!("attribute_{}", columns.len()),
+        file.points,
+    )? {
+        columns.push(column);
+        // Honest columns take a byte a number; appended ones could all name the same bytes.
+        if columns.len().saturating_mul(file.points) > file.size {
+            return Err(file
+                .piece
+                .fault("the attributes are more than the file can hold", ""));
+        }
+    }
+    mesh.attributes_per_point = columns.len();
+    mesh.attributes = (0..file.points)
+        .flat_map(|i| columns.iter().map(move |c| c[i].0))
+        .collect();
+    Ok(())
+}
+
+fn cells(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
+    let connectivity = file.values("Cells", "connectivity", 1, None)?;
+    let offsets = file.values("Cells", "offsets", 1, Some(file.cells))?;
+    let types = file.values("Cells", "types", 1, Some(file.cells))?;
+    let physical = file.perhaps("CellData", "gmsh:physical", file.cells)?;
+    let markers = file
+        .perhaps("CellData", "marker", file.cells)?
+        .or_else(|| physical.clone());
+    let regions = file.perhaps("CellData", "region", file.cells)?.or(physical);
+    let of = |values: &Option<Vec<Value>>, cell: usize| values.as_ref().map(|v| v[cell].0);
+    let mut from = 0;
+    for cell in 0..file.cells {
+        let bad = |problem: String, fix: &str| {
+            let line = connectivity.get(from).map_or(0, |&(_, line)| line);
+            let element = format!("cell {cell}");
+            ReadError {
+                part: ".vtu",
+                line,
+                element,
+                problem,
+                fix: fix.into(),
+                ..ReadError::default()
+            }
+        };
+        let end = index(offsets[cell].0, connectivity.len() + 1).filter(|&end| end >= from);
+        let Some(end) = end else {
+            return Err(bad(
+                format!("its offset is {:?}", offsets[cell].0),
+                "offsets ascend up to the length of connectivity",
+            ));
+        };
+        let mut corners = Vec::with_capacity(3);
+        for &(x, line) in connectivity[from..end].iter().take(4) {
+            let id = index(x, file.points);
+            let id = id.ok_or_else(|| ReadError {
+                line,
+                ..bad(
+                    format!("there is no vertex {x:?}"),
+                    "vertices are numbered from 0",
+                )
+            })?;
+            // Counts are below 2^31.
+            corners.push(VertexId(id as u32));
+        }
+        let line = connectivity.get(from).map_or(0, |&(_, line)| line);
+        match (types[cell].0 as i64, &corners[..]) {
+            (5, &[a, b, c]) => {
+                mesh.triangles.push([a, b, c]);
+                mesh.lines.triangles.push(line);
+                mesh.triangle_attributes.extend(of(&regions, cell));
+            }
+            (3, &[a, b]) => {
+                mesh.edges.push(ForeignEdge {
+                    ends: [a, b],
+                    marker: of(&markers, cell).map_or(0, |x| x as i32),
+                });
+                mesh.lines.edges.push(line);
+            }
+            (1, [_]) => {}
+            (kind, _) => {
+                let problem = format!("its type is {kind} and it has {} corners", end - from);
+                return Err(bad(
+                    problem,
+                    "only vertices (1), lines (3) and triangles (5) are read here",
+                ));
+            }
+        }
+        from = end;
+    }
+    Ok(())
+}
+
+/// A float as an index below a bound.
+fn index(x: f64, bound: usize) -> Option<usize> {
+    // The cast saturates; a fraction or a negative number does not survive it.
+    let i = x as usize;
+    ((i as f64).to_bits() == x.to_bits() && i < bound).then_some(i)
+}
