@@ -260,8 +260,8 @@ impl Kernel for FastKernel {
 
     #[inline]
     fn length2(a: Point2, b: Point2) -> f64 {
-        poly::length2::<DoubleDouble>(a, b)
-            .rounded()
+        construct::length2(a, b)
+            .or_else(|| poly::length2::<DoubleDouble>(a, b).rounded())
             .unwrap_or_else(|| {
                 rarely(|| round::ratio(&poly::length2::<Dyadic>(a, b), &Dyadic::integer(1)))
             })
@@ -272,7 +272,7 @@ impl Kernel for FastKernel {
     }
 
     fn area_ratio(t: Corners, bound: f64) -> f64 {
-        rounded_fraction!(area_ratio(t, bound))
+        construct::area_ratio(t, bound).unwrap_or_else(|| rounded_fraction!(area_ratio(t, bound)))
     }
 
     fn radius_ratio2(t: Corners, h: f64) -> f64 {
@@ -306,7 +306,7 @@ impl Kernel for FastKernel {
 
     fn offcenter(t: Corners, kappa: f64) -> Result<Point2, OutOfRange> {
         if sign_of!(center_beyond(t, kappa)).is_positive() {
-            in_range(rounded_half!(offcenter_twice(t[0], t[1], kappa)))
+            in_range(nearer_offcenter(t, kappa))
         } else {
             Self::circumcenter(t)
         }
@@ -318,9 +318,15 @@ impl Kernel for FastKernel {
         } else if sign_of!(offcenter_outside_disk(t, kappa, d2)).is_positive() {
             in_range(rounded_root!(t[0], clamped(t, d2)))
         } else {
-            in_range(rounded_half!(offcenter_twice(t[0], t[1], kappa)))
+            in_range(nearer_offcenter(t, kappa))
         }
     }
+}
+
+/// m + kappa rot90(q-p), rounded, before the range rule.
+#[inline]
+fn nearer_offcenter([p, q, _]: Corners, kappa: f64) -> Point2 {
+    construct::offcenter(p, q, kappa).unwrap_or_else(|| rounded_half!(offcenter_twice(p, q, kappa)))
 }
 
 #[cold]
