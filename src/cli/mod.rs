@@ -9,6 +9,11 @@ mod diff;
 mod doctor;
 mod files;
 mod input;
+mod mesh;
+mod outputs;
+mod parameters;
+mod report;
+mod watch;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -68,6 +73,8 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 fn dispatch(command: &Command) -> Answer {
     match command {
+        Command::Mesh(args) => mesh::run(args),
+        Command::Triangulate(args) => mesh::triangulate(args),
         Command::Doctor(args) => doctor::run(args),
         Command::Diff(args) => diff::run(args),
         Command::Convert(args) => convert::run(args),

@@ -11,14 +11,24 @@ pub const OUTPUTS: &str = ".vtu, .node, .ele, .poly, .edge";
 
 /// Refuses names that `stage` would refuse; to be asked before a long run.
 pub fn check_names(paths: &[PathBuf]) -> Result<(), Failure> {
-    paths.iter().try_for_each(|path| match extension(path).as_str() {
-        "node" | "ele" | "poly" | "edge" | "vtu" => Ok(()),
-        other => Err(Failure::at(path, format_args!("meshes end in {OUTPUTS}, not in .{other}"))),
-    })
+    paths
+        .iter()
+        .try_for_each(|path| match extension(path).as_str() {
+            "node" | "ele" | "poly" | "edge" | "vtu" => Ok(()),
+            other => Err(Failure::at(
+                path,
+                format_args!("meshes end in {OUTPUTS}, not in .{other}"),
+            )),
+        })
 }
 
 /// Writes a mesh under each name. Of Triangle's files, `.node` and `.ele` are written with any of them.
-pub fn stage(paths: &[PathBuf], mesh: &Mesh2, domain: Option<&Pslg>, staged: &mut Staged) -> Result<Vec<PathBuf>, Failure> {
+pub fn stage(
+    paths: &[PathBuf],
+    mesh: &Mesh2,
+    domain: Option<&Pslg>,
+    staged: &mut Staged,
+) -> Result<Vec<PathBuf>, Failure> {
     let mut places: Vec<PathBuf> = Vec::new();
     for path in paths {
         if matches!(extension(path).as_str(), "node" | "ele" | "poly" | "edge") {
@@ -41,6 +51,11 @@ fn bytes(path: &Path, mesh: &Mesh2, domain: Option<&Pslg>) -> Result<Vec<u8>, Fa
         "poly" => write::triangle::poly(mesh, domain),
         "edge" => write::triangle::edge(mesh),
         "vtu" => write::vtu(mesh),
-        other => return Err(Failure::at(path, format_args!("meshes end in {OUTPUTS}, not in .{other}"))),
+        other => {
+            return Err(Failure::at(
+                path,
+                format_args!("meshes end in {OUTPUTS}, not in .{other}"),
+            ));
+        }
     })
 }

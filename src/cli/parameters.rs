@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::args::{ChoiceArgs, MeshArgs};
-use crate::arith::{kappa, rho2_from_min_angle};
+use crate::arith::angle::{kappa, rho2_from_min_angle};
 use crate::model::{Choice, DiskChoice, GcdrParameters, Level};
 use crate::refine::least_d2;
 
@@ -11,11 +11,21 @@ pub fn parameters(args: &MeshArgs) -> Result<GcdrParameters, Failure> {
     let rho2 = rho2(args)?;
     let chosen = choices(args);
     let (choice_a, choice_b, choice_c) = chosen;
-    let offcenter = matches!(choice_a, DiskChoice::Offcenter | DiskChoice::ClampedOffcenter);
+    let offcenter = matches!(
+        choice_a,
+        DiskChoice::Offcenter | DiskChoice::ClampedOffcenter
+    );
     let segments = [choice_b, choice_c];
     let extreme = choice_a == DiskChoice::Extreme || segments.contains(&Choice::Extreme);
     let random = choice_a == DiskChoice::Random || segments.contains(&Choice::Random);
-    let ChoiceArgs { d1, mu, order, deletion, small_angles, .. } = args.choices;
+    let ChoiceArgs {
+        d1,
+        mu,
+        order,
+        deletion,
+        small_angles,
+        ..
+    } = args.choices;
     let extreme = extreme.then_some(args.choices.extreme);
     let draws = random || extreme == Some(crate::model::VertexOfTriangle::Seeded);
     Ok(GcdrParameters {
@@ -62,11 +72,16 @@ fn d2(args: &MeshArgs, rho2: f64) -> Result<f64, Failure> {
     if let Some(d2) = args.choices.d2 {
         return Ok(d2);
     }
-    let Some(level) = args.quality.promise else { return Ok(1.0) };
+    let Some(level) = args.quality.promise else {
+        return Ok(1.0);
+    };
     least_d2(rho2, level).ok_or_else(|| {
         let (name, least) = match level {
             Level::Graded => ("graded", "rho2 above 1.25, an angle below 26.56 degrees"),
-            _ => ("admissible", "rho2 of at least 1, an angle of at most 30 degrees"),
+            _ => (
+                "admissible",
+                "rho2 of at least 1, an angle of at most 30 degrees",
+            ),
         };
         Failure::new(format_args!("--promise {name} needs {least}"))
     })
@@ -75,12 +90,20 @@ fn d2(args: &MeshArgs, rho2: f64) -> Result<f64, Failure> {
 /// Off-centers inside unless chosen otherwise, clamped where a promise has to be kept; midpoints on segments.
 fn choices(args: &MeshArgs) -> (DiskChoice, Choice, Choice) {
     let typed = &args.choices;
-    let everyday = if args.quality.promise.is_some() { DiskChoice::ClampedOffcenter } else { DiskChoice::Offcenter };
+    let everyday = if args.quality.promise.is_some() {
+        DiskChoice::ClampedOffcenter
+    } else {
+        DiskChoice::Offcenter
+    };
     let a = typed.choice.or(typed.choice_a).unwrap_or(everyday);
     let on_segments = match typed.choice {
         Some(DiskChoice::Extreme) => Choice::Extreme,
         Some(DiskChoice::Random) => Choice::Random,
         _ => Choice::Center,
     };
-    (a, typed.choice_b.unwrap_or(on_segments), typed.choice_c.unwrap_or(on_segments))
+    (
+        a,
+        typed.choice_b.unwrap_or(on_segments),
+        typed.choice_c.unwrap_or(on_segments),
+    )
 }

@@ -31,13 +31,23 @@ impl Limit {
     pub fn new(seconds: Option<f64>) -> Self {
         let span = seconds.and_then(|s| Duration::try_from_secs_f64(s.max(0.0)).ok());
         let deadline = span.and_then(|span| Instant::now().checked_add(span));
-        Limit { deadline, seconds: seconds.unwrap_or(0.0), asked: 0, script: None }
+        Limit {
+            deadline,
+            seconds: seconds.unwrap_or(0.0),
+            asked: 0,
+            script: None,
+        }
     }
 
     /// A limit that stops where `first` did, for its reason, and nowhere else. `reason`: what the first run gave.
     pub fn again(first: &Limit, reason: Option<&str>) -> Self {
         let script = reason.map(|reason| (first.asked, reason.to_string()));
-        Limit { deadline: None, seconds: 0.0, asked: 0, script: Some(script.unwrap_or((u64::MAX, String::new()))) }
+        Limit {
+            deadline: None,
+            seconds: 0.0,
+            asked: 0,
+            script: Some(script.unwrap_or((u64::MAX, String::new()))),
+        }
     }
 
     /// Answers a run.
@@ -50,7 +60,9 @@ impl Limit {
             return Some("interrupted".into());
         }
         match self.deadline {
-            Some(deadline) if Instant::now() >= deadline => Some(format!("the budget of {} seconds is spent", self.seconds)),
+            Some(deadline) if Instant::now() >= deadline => {
+                Some(format!("the budget of {} seconds is spent", self.seconds))
+            }
             _ => None,
         }
     }
@@ -67,7 +79,12 @@ pub struct Watched<'a> {
 impl<'a> Watched<'a> {
     /// Watches what goes into `inner`.
     pub fn new(inner: &'a mut dyn Sink) -> Self {
-        Watched { inner, progress: io::stderr().is_terminal(), events: 0, shown: Instant::now() }
+        Watched {
+            inner,
+            progress: io::stderr().is_terminal(),
+            events: 0,
+            shown: Instant::now(),
+        }
     }
 
     fn show(&mut self) {
@@ -103,7 +120,9 @@ impl Sink for Watched<'_> {
 
 /// What a run promises, in words.
 fn promise(header: &Header) -> Option<String> {
-    let Algorithm::Gcdr(parameters) = &header.algorithm else { return None };
+    let Algorithm::Gcdr(parameters) = &header.algorithm else {
+        return None;
+    };
     Some(match header.level? {
         Level::Graded => "promise   graded: the run ends by itself, and edge lengths follow the local feature size".into(),
         Level::Admissible => {
