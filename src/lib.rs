@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod arith;
+pub mod audit;
 pub mod check;
 pub mod cli;
 pub mod domain;

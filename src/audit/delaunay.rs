@@ -11,19 +11,28 @@ use std::cmp::Ordering;
 /// Local test at every unconstrained edge: by the constrained Delaunay lemma equivalent to circles empty of visible vertices.
 pub(super) fn constrained(complex: &Complex<'_>, constraints: &[bool]) -> ClaimReport {
     let inside = |t, q| in_circle(t, q) == Ordering::Greater;
-    local(complex, Claim::Constrained, constraints, inside).conclude("no visible vertex inside a circle")
+    local(complex, Claim::Constrained, constraints, inside)
+        .conclude("no visible vertex inside a circle")
 }
 
 /// As `constrained`, ties decided by the perturbation.
 pub(super) fn canonical(complex: &Complex<'_>, constraints: &[bool]) -> ClaimReport {
-    local(complex, Claim::Canonical, constraints, in_conflict).conclude("no conflict under the one tie-break")
+    local(complex, Claim::Canonical, constraints, in_conflict)
+        .conclude("no conflict under the one tie-break")
 }
 
-fn local(complex: &Complex<'_>, claim: Claim, constraints: &[bool], inside: impl Fn([Point2; 3], Point2) -> bool) -> ClaimReport {
+fn local(
+    complex: &Complex<'_>,
+    claim: Claim,
+    constraints: &[bool],
+    inside: impl Fn([Point2; 3], Point2) -> bool,
+) -> ClaimReport {
     let mut report = ClaimReport::new(claim);
     for (h, twin) in complex.twin.iter().enumerate() {
         let h = h as u32;
-        let Some(twin) = twin.filter(|&twin| h < twin && !constraints[h as usize]) else { continue };
+        let Some(twin) = twin.filter(|&twin| h < twin && !constraints[h as usize]) else {
+            continue;
+        };
         let (t, q) = (h / 3, complex.apex(twin));
         if inside(complex.corners(t), complex.point(q)) {
             witness(&mut report, complex, t, q);
@@ -35,7 +44,9 @@ fn local(complex: &Complex<'_>, claim: Claim, constraints: &[bool], inside: impl
 fn witness(report: &mut ClaimReport, complex: &Complex<'_>, t: u32, q: u32) {
     let [a, b, c] = complex.triangles[t as usize];
     let t = complex.in_file[t as usize];
-    report.violated(complex.subject, &[a, b, c, q], &[t], || format!("vertex {q} is inside the circle of triangle {t} ({a}, {b}, {c})"));
+    report.violated(complex.subject, &[a, b, c, q], &[t], || {
+        format!("vertex {q} is inside the circle of triangle {t} ({a}, {b}, {c})")
+    });
 }
 
 /// Circles empty of all vertices. In a convex region the local test suffices; else each circle is searched for vertices.
@@ -69,7 +80,9 @@ pub(super) fn delaunay(complex: &Complex<'_>) -> ClaimReport {
 
 /// Whether the mesh (a valid complex) has one border loop that never turns right.
 fn is_convex(complex: &Complex<'_>) -> bool {
-    let Some(start) = complex.border().next() else { return false };
+    let Some(start) = complex.border().next() else {
+        return false;
+    };
     let (mut h, mut length) = (start, 0);
     loop {
         let next = complex.next_on_border(h);

@@ -70,7 +70,9 @@ pub(super) fn in_conflict(t: [Point2; 3], d: Point2) -> bool {
 
 /// Order by x, then by y; -0 equals 0. Coordinates are finite.
 pub(super) fn lexicographic(a: Point2, b: Point2) -> Ordering {
-    (a.x + 0.0).total_cmp(&(b.x + 0.0)).then((a.y + 0.0).total_cmp(&(b.y + 0.0)))
+    (a.x + 0.0)
+        .total_cmp(&(b.x + 0.0))
+        .then((a.y + 0.0).total_cmp(&(b.y + 0.0)))
 }
 
 fn difference<N: Scalar>(a: Point2, b: Point2) -> [N; 2] {
@@ -105,7 +107,9 @@ fn along_in<N: Scalar>(a: Point2, b: Point2, p: Point2, q: Point2) -> Option<Ord
 fn near_line_in<N: Scalar>(a: Point2, b: Point2, p: Point2, distance: f64) -> Option<Ordering> {
     let (u, v) = (difference::<N>(b, a), difference::<N>(p, a));
     let length2 = dot(u.clone(), u.clone());
-    cross(u, v).squared().compare(&(N::of(distance).squared() * length2))
+    cross(u, v)
+        .squared()
+        .compare(&(N::of(distance).squared() * length2))
 }
 
 #[cfg(test)]
@@ -119,10 +123,22 @@ mod tests {
     #[test]
     fn nearly_and_exactly_degenerate() {
         let e = 2f64.powi(-60);
-        assert_eq!(orient(p(0.0, 0.0), p(1.0, 1.0), p(3.0, 3.0)), Ordering::Equal);
-        assert_eq!(orient(p(0.0, e), p(1.0, 1.0), p(3.0, 3.0)), Ordering::Less);
-        assert_eq!(orient(p(1e-300, 0.0), p(0.0, 1e-300), p(-1e-300, 0.0)), Ordering::Greater);
-        assert_eq!(orient(p(1e300, 0.0), p(0.0, 1e300), p(-1e300, 0.0)), Ordering::Greater);
+        assert_eq!(
+            orient(p(0.0, 0.0), p(1.0, 1.0), p(3.0, 3.0)),
+            Ordering::Equal
+        );
+        assert_eq!(
+            orient(p(0.0, e), p(1.0, 1.0), p(3.0, 3.0)),
+            Ordering::Greater
+        );
+        assert_eq!(
+            orient(p(1e-300, 0.0), p(0.0, 1e-300), p(-1e-300, 0.0)),
+            Ordering::Greater
+        );
+        assert_eq!(
+            orient(p(1e300, 0.0), p(0.0, 1e300), p(-1e300, 0.0)),
+            Ordering::Greater
+        );
         let square = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0)];
         assert_eq!(in_circle(square, p(0.0, 1.0)), Ordering::Equal);
         assert_eq!(in_circle(square, p(e, 1.0)), Ordering::Greater);
@@ -135,8 +151,16 @@ mod tests {
         let q = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0)];
         for shift in [p(0.0, 0.0), p(-5.0, 3.0)] {
             let [a, b, c, d] = q.map(|x| x + shift);
-            let ac = [in_conflict([a, b, c], d), in_conflict([b, c, a], d), in_conflict([c, d, a], b)];
-            let bd = [in_conflict([a, b, d], c), in_conflict([b, d, a], c), in_conflict([b, c, d], a)];
+            let ac = [
+                in_conflict([a, b, c], d),
+                in_conflict([b, c, a], d),
+                in_conflict([c, d, a], b),
+            ];
+            let bd = [
+                in_conflict([a, b, d], c),
+                in_conflict([b, d, a], c),
+                in_conflict([b, c, d], a),
+            ];
             assert_eq!(ac, [ac[0]; 3]);
             assert_eq!(bd, [bd[0]; 3]);
             assert_ne!(ac[0], bd[0]);

@@ -35,7 +35,10 @@ fn shape(complex: &Complex<'_>, t: u32) -> Shape {
 
 /// Angles, ratios, areas; the triangles of least angle as witnesses.
 pub(super) fn quality(complex: &Complex<'_>) -> ClaimReport {
-    let mut report = ClaimReport { verdict: Verdict::Told, ..ClaimReport::new(Claim::Quality) };
+    let mut report = ClaimReport {
+        verdict: Verdict::Told,
+        ..ClaimReport::new(Claim::Quality)
+    };
     let count = complex.triangles.len();
     if count == 0 {
         report.message = "there is no triangle".into();
@@ -55,7 +58,9 @@ pub(super) fn quality(complex: &Complex<'_>) -> ClaimReport {
     }
     by_angle.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let below = |degrees: f64| by_angle.partition_point(|a| a.0 < degrees) as f64;
-    report.message = format!("angles from {least:.4} to {largest:.4} degrees, circumradius at most {ratio:.4} shortest edges");
+    report.message = format!(
+        "angles from {least:.4} to {largest:.4} degrees, circumradius at most {ratio:.4} shortest edges"
+    );
     report.figures = vec![
         ("triangles", count as f64),
         ("min_angle", least),
@@ -73,7 +78,14 @@ pub(super) fn quality(complex: &Complex<'_>) -> ClaimReport {
         report.witnesses.push(Witness {
             message: format!("triangle {file} {vertices:?} has an angle of {angle:.4} degrees"),
             coordinates: complex.corners(t).map(|p| [p.x, p.y]).to_vec(),
-            lines: complex.subject.triangle_lines.get(file as usize).copied().filter(|&l| l > 0).into_iter().collect(),
+            lines: complex
+                .subject
+                .triangle_lines
+                .get(file as usize)
+                .copied()
+                .filter(|&l| l > 0)
+                .into_iter()
+                .collect(),
             vertices,
             triangles: vec![file],
             input: Vec::new(),
@@ -122,8 +134,14 @@ impl Counts {
             vertices: complex.vertices.len() as i64,
             edges: complex.edges().count() as i64,
             triangles: complex.triangles.len() as i64,
-            components: complex.vertices.iter().filter(|&&v| by_vertex.find(v) == v).count() as i64,
-            strong_components: (0..complex.triangles.len() as u32).filter(|&t| by_edge.find(t) == t).count() as i64,
+            components: complex
+                .vertices
+                .iter()
+                .filter(|&&v| by_vertex.find(v) == v)
+                .count() as i64,
+            strong_components: (0..complex.triangles.len() as u32)
+                .filter(|&t| by_edge.find(t) == t)
+                .count() as i64,
             border_loops: loops,
             border_edges: complex.border().count() as i64,
         }
@@ -148,7 +166,10 @@ pub(super) fn topology(complex: &Complex<'_>) -> ClaimReport {
     }
     let pinched = border_degree.iter().filter(|&&d| d > 1).count();
     let unused = complex.subject.points.len() as i64 - c.vertices;
-    let mut report = ClaimReport { verdict: Verdict::Told, ..ClaimReport::new(Claim::Topology) };
+    let mut report = ClaimReport {
+        verdict: Verdict::Told,
+        ..ClaimReport::new(Claim::Topology)
+    };
     report.message = format!(
         "{} component{}, {} hole{}, Euler characteristic {}",
         c.components,

@@ -26,9 +26,9 @@ mod delaunay;
 mod exact;
 mod figures;
 mod report;
-mod tree;
 #[cfg(test)]
 mod tests;
+mod tree;
 
 pub use report::{Claim, ClaimReport, LISTED_WITNESSES, Report, Verdict, Witness};
 
@@ -65,7 +65,11 @@ pub struct Options<'a> {
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Options { claims: &Claim::ALL, input: None, within: 2.0 }
+        Options {
+            claims: &Claim::ALL,
+            input: None,
+            within: 2.0,
+        }
     }
 }
 

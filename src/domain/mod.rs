@@ -16,6 +16,4 @@ pub use normalise::{GREATEST_COORDINATE, LARGEST_SCALE, LEAST_COORDINATE, Scale,
 pub use validate::{Prepared, prepare};
 
 #[cfg(test)]
-mod test_kernel;
-#[cfg(test)]
 mod tests;

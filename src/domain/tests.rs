@@ -1,7 +1,7 @@
 //! `prepare` against definitions: tables, integer grids against brute force, the corpus.
 
-use super::test_kernel::Orientations;
 use super::*;
+use crate::arith::FastKernel;
 use crate::model::{Lines, Point2, Pslg, Region, Segment, VertexId};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ fn graph(points: &[(i32, i32)], segments: &[(u32, u32)]) -> Pslg {
 }
 
 fn prepared(g: &Pslg) -> Prepared {
-    prepare::<Orientations>(g, &Lines::default())
+    prepare::<FastKernel>(g, &Lines::default())
 }
 
 /// Kinds with the elements they name.
