@@ -20,9 +20,8 @@ pub(super) fn is_small<K: Kernel>(apex: Point2, p: Point2, q: Point2) -> bool {
 /// The sectors around v that lie inside the region, between consecutive constrained edges: pairs of edges with origin v,
 /// the second counterclockwise of the first, less than a half turn apart.
 pub(crate) fn convex_sectors<K: Kernel>(cdt: &Cdt2<K>, v: VertexId) -> Vec<[HalfEdge; 2]> {
-    let star = cdt.edges_around(v);
     let mut sectors = Vec::new();
-    for &first in star.iter().filter(|e| cdt.segment(**e).is_some()) {
+    for first in cdt.edges_around(v).filter(|&e| cdt.segment(e).is_some()) {
         // turn counterclockwise through the triangles at v up to the next constrained edge
         let mut e = first;
         let end = loop {

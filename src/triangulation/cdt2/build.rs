@@ -66,6 +66,7 @@ impl<K: Kernel> Cdt2<K> {
             slots,
             labels,
             free: Vec::new(),
+            outside: 0,
             clock: 0,
             journal: Default::default(),
             scratch: Default::default(),

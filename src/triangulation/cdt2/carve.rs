@@ -3,7 +3,7 @@
 //! A face is a set of triangles connected across unconstrained edges. Faces are numbered, then kept or dropped as a whole.
 
 use super::Location;
-use super::store::{Cdt2, Link, NONE, Slot, TriId};
+use super::store::{Cdt2, Link, NONE, OUTSIDE, Slot, TriId};
 use crate::arith::Kernel;
 use crate::model::{Fill, Point2};
 
@@ -67,7 +67,7 @@ impl<K: Kernel> Cdt2<K> {
         if !findings.is_empty() {
             return Err(findings.swap_remove(0));
         }
-        self.compact(&faces);
+        self.label_faces(&faces);
         Ok(())
     }
 
@@ -213,36 +213,22 @@ impl<K: Kernel> Cdt2<K> {
         Ok(faces.of[t.0 as usize] as usize)
     }
 
-    /// Drops the triangles of the faces not kept, labels the others, closes the gaps.
-    fn compact(&mut self, faces: &Faces) {
-        let mut renumbered = vec![NONE; self.slots.len()];
-        let kept = |faces: &Faces, t: TriId| faces.kept[faces.of[t.0 as usize] as usize];
-        let order: Vec<TriId> = self.triangles().filter(|&t| kept(faces, t)).collect();
-        for (new, t) in (0u32..).zip(&order) {
-            renumbered[t.0 as usize] = new;
-        }
-        self.hints.fill(NONE);
-        for (new, t) in (0u32..).zip(&order) {
-            let old = self.slots[t.0 as usize];
-            let link = old.link.map(|l| {
-                let twin = l.twin().map(|f| (renumbered[(f >> 2) as usize], f & 3));
-                l.redirected(twin.filter(|&(t, _)| t != NONE).map(|(t, k)| 4 * t + k))
-            });
-            let region = faces.region[faces.of[t.0 as usize] as usize];
-            // New numbers are not greater than old ones: nothing is overwritten that is still to be read.
-            self.slots[new as usize] = Slot {
-                link,
-                region,
-                ..old
+    /// Labels the triangles; those of faces not kept become `OUTSIDE`.
+    fn label_faces(&mut self, faces: &Faces) {
+        for (t, slot) in self
+            .slots
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, s)| s.is_inside())
+        {
+            let face = faces.of[t] as usize;
+            slot.region = if faces.kept[face] {
+                faces.region[face]
+            } else {
+                OUTSIDE
             };
-            self.labels[new as usize] = self.labels[t.0 as usize];
-            for k in 0..3 {
-                self.hints[old.v[k as usize] as usize] = 4 * new + k;
-            }
+            self.outside += usize::from(!faces.kept[face]);
         }
-        self.slots.truncate(order.len());
-        self.labels.truncate(order.len());
-        self.free.clear();
         self.commit();
     }
 }

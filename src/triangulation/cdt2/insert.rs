@@ -7,7 +7,7 @@
 //! the entry edge the circle stays between their lines. This holds with ties too, and for a split point off its segment
 //! once the triangles with the ends and apexes are positively oriented (section 4.3 of `docs/gcdr.md`).
 
-use super::store::{Cdt2, Change, HalfEdge, Link, NONE, Slot, TriId, next, prev};
+use super::store::{Cdt2, Change, HalfEdge, Link, NONE, OUTSIDE, Slot, TriId, next, prev};
 use crate::arith::Kernel;
 use crate::model::{Point2, VertexId};
 
@@ -60,7 +60,7 @@ impl<K: Kernel> Cdt2<K> {
     }
 
     /// Splits the constrained edge e at p: its one or two triangles are destroyed without test, then the flood goes on
-    /// from each on its own side. The new edges (u, p), (p, v) carry the segment's id.
+    /// from each on its own side (an outside triangle is only cut in two). The new edges (u, p), (p, v) carry the segment's id.
     ///
     /// Shape: with a the apex on either side, (u, p, a) and (p, v, a) are positively oriented (the caller's test).
     pub fn split(&mut self, e: HalfEdge, p: Point2, change: &mut Change) -> VertexId {
@@ -79,7 +79,14 @@ impl<K: Kernel> Cdt2<K> {
         for root in [first, second].into_iter().flatten() {
             s.zone.push(root >> 2);
             s.stack.extend([prev(root), next(root)]);
-            self.flood(&mut s, p);
+            if self.slots[(root >> 2) as usize].is_inside() {
+                self.flood(&mut s, p);
+            } else {
+                self.outside += 1;
+                while let Some(e) = s.stack.pop() {
+                    s.rim.push(self.rim(e));
+                }
+            }
         }
         let [u, v] = [self.origin_of(e.0), self.origin_of(next(e.0))];
         let closing = match twin {
@@ -119,17 +126,25 @@ impl<K: Kernel> Cdt2<K> {
                     continue;
                 }
             }
-            let label = if outer.is_constrained() {
-                self.label(e)
-            } else {
-                NONE
-            };
-            s.rim.push(Rim {
-                origin: inner.v[k],
-                outer,
-                label,
-                region: inner.region,
-            });
+            s.rim.push(self.rim(e));
+        }
+    }
+
+    /// The half-edge e as an edge of the cavity's boundary.
+    #[inline]
+    fn rim(&self, e: u32) -> Rim {
+        let outer = self.link(e);
+        let label = if outer.is_constrained() {
+            self.label(e)
+        } else {
+            NONE
+        };
+        let region = self.slots[(e >> 2) as usize].region;
+        Rim {
+            origin: self.origin_of(e),
+            outer,
+            label,
+            region,
         }
     }
 
@@ -143,9 +158,10 @@ impl<K: Kernel> Cdt2<K> {
     ///              p
     /// ```
     fn star(&mut self, s: &mut Scratch, p: Point2, closing: Closing, change: &mut Change) -> u32 {
+        let zone = s.zone.iter().map(|&t| &self.slots[t as usize]);
         change
             .destroyed
-            .extend(s.zone.iter().map(|&t| self.slots[t as usize].canonical()));
+            .extend(zone.filter(|t| t.is_inside()).map(Slot::canonical));
         while s.zone.len() < s.rim.len() {
             s.zone.push(self.take_slot());
         }
@@ -162,10 +178,12 @@ impl<K: Kernel> Cdt2<K> {
             };
             let link = [rim.outer, Link::to(4 * after + 2), Link::to(4 * before + 1)];
             let v = [rim.origin, end, p_id];
-            debug_assert!({
-                let [a, b, c] = self.corners_of(&v);
-                K::orient2d(a, b, c).is_positive()
-            });
+            debug_assert!(
+                rim.region == OUTSIDE || {
+                    let [a, b, c] = self.corners_of(&v);
+                    K::orient2d(a, b, c).is_positive()
+                }
+            );
             self.write_slot(
                 here,
                 Slot {
@@ -177,7 +195,9 @@ impl<K: Kernel> Cdt2<K> {
             );
             self.write_hint(rim.origin, 4 * here);
             self.glue_back(4 * here, rim.outer, rim.label);
-            change.created.push(TriId(here));
+            if rim.region != OUTSIDE {
+                change.created.push(TriId(here));
+            }
             before = here;
         }
         self.write_hint(p_id, 4 * slots[0] + 2);

@@ -30,6 +30,7 @@ pub(super) struct Journal {
     points: usize,
     slots: usize,
     clock: u32,
+    outside: usize,
 }
 
 impl Journal {
@@ -54,6 +55,7 @@ impl<K: Kernel> Cdt2<K> {
         self.journal.points = self.points.len();
         self.journal.slots = self.slots.len();
         self.journal.clock = self.clock;
+        self.journal.outside = self.outside;
     }
 
     /// Forgets the journal.
@@ -91,5 +93,6 @@ impl<K: Kernel> Cdt2<K> {
         self.slots.truncate(self.journal.slots);
         self.labels.truncate(self.journal.slots);
         self.clock = self.journal.clock;
+        self.outside = self.journal.outside;
     }
 }

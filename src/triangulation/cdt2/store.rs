@@ -37,6 +37,10 @@ impl Change {
 /// No vertex, no half-edge, no label.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// The region of triangles that `carve` left out. They stay as filler, so that the triangles around a vertex are one
+/// run also where the region touches itself there; nothing of them is seen from without, nor are they Delaunay.
+pub(super) const OUTSIDE: u32 = u32::MAX;
+
 /// What a half-edge is glued to: a half-edge or nothing, and whether the edge is constrained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Link(u32);
@@ -108,6 +112,12 @@ impl Slot {
         self.v[0] == NONE
     }
 
+    /// Whether the slot holds a triangle of the region.
+    #[inline]
+    pub(super) fn is_inside(&self) -> bool {
+        self.v[0] != NONE && self.region != OUTSIDE
+    }
+
     /// The vertices, the smallest first.
     pub(super) fn canonical(&self) -> Triangle {
         crate::model::canonical_triangle(self.v.map(VertexId))
@@ -143,6 +153,8 @@ pub struct Cdt2<K: Kernel> {
     /// Labels of the three edges of each slot; meaningful where the link is constrained.
     pub(super) labels: Vec<[u32; 3]>,
     pub(super) free: Vec<u32>,
+    /// How many triangles are `OUTSIDE`.
+    pub(super) outside: usize,
     pub(super) clock: u32,
     pub(super) journal: Journal,
     pub(super) scratch: super::insert::Scratch,
@@ -163,19 +175,19 @@ impl<K: Kernel> Cdt2<K> {
 
     /// How many triangles there are.
     pub fn triangle_count(&self) -> usize {
-        self.slots.len() - self.free.len()
+        self.slots.len() - self.free.len() - self.outside
     }
 
     /// The triangles, by slot.
     pub fn triangles(&self) -> impl Iterator<Item = TriId> + '_ {
-        let live = self.slots.iter().enumerate().filter(|(_, s)| !s.is_free());
+        let live = self.slots.iter().enumerate().filter(|(_, s)| s.is_inside());
         // Slots number fewer than 2^29 (checked where they are added).
         live.map(|(i, _)| TriId(i as u32))
     }
 
     /// Whether the slot holds a triangle.
     pub fn is_live(&self, t: TriId) -> bool {
-        self.slots.get(t.0 as usize).is_some_and(|s| !s.is_free())
+        self.slots.get(t.0 as usize).is_some_and(Slot::is_inside)
     }
 
     /// The vertices of a triangle, counterclockwise.
@@ -247,7 +259,10 @@ impl<K: Kernel> Cdt2<K> {
     /// The same edge seen from the other side; `None` where there is no triangle.
     #[inline]
     pub fn twin(&self, e: HalfEdge) -> Option<HalfEdge> {
-        self.link(e.0).twin().map(HalfEdge)
+        let f = self.link(e.0).twin()?;
+        self.slots[(f >> 2) as usize]
+            .is_inside()
+            .then_some(HalfEdge(f))
     }
 
     /// Whether the edge is part of an input segment.
@@ -264,37 +279,42 @@ impl<K: Kernel> Cdt2<K> {
             .then(|| SegmentId(self.label(e.0)))
     }
 
-    /// Some live half-edge with origin v; `None` for a deleted vertex or one in no kept triangle.
+    /// Some half-edge of the region with origin v; `None` for a deleted vertex or one in no kept triangle.
     pub fn edge_from(&self, v: VertexId) -> Option<HalfEdge> {
-        let e = *self.hints.get(v.index())?;
-        (e != NONE).then_some(HalfEdge(e))
+        self.edges_around(v).next()
     }
 
-    /// The half-edge from u to v, if it exists on a live triangle (then its left side), found by turning around u.
+    /// The half-edge from u to v, if it exists on a triangle of the region (then its left side), found by turning around u.
     pub fn find_edge(&self, u: VertexId, v: VertexId) -> Option<HalfEdge> {
-        let start = self.edge_from(u)?.0;
-        let ccw = |e: u32| self.link(prev(e)).twin();
-        let cw = |e: u32| self.link(e).twin().map(next);
-        let mut e = start;
-        loop {
-            if self.origin_of(next(e)) == v.0 {
-                return Some(HalfEdge(e));
+        self.edges_around(u).find(|&e| self.destination(e) == v)
+    }
+
+    /// The half-edges of the region with origin v: counterclockwise from some first one, then, if v is on the hull,
+    /// clockwise from there.
+    pub fn edges_around(&self, v: VertexId) -> impl Iterator<Item = HalfEdge> + '_ {
+        let start = self.hints.get(v.index()).copied().filter(|&e| e != NONE);
+        let mut last = start;
+        let mut counterclockwise = true;
+        let turn = move || {
+            let e = last?;
+            if counterclockwise {
+                last = self.link(prev(e)).twin();
+                if last.is_none() {
+                    counterclockwise = false;
+                    last = start;
+                } else if last == start {
+                    last = None;
+                    return Some(e);
+                } else {
+                    return Some(e);
+                }
             }
-            match ccw(e) {
-                Some(f) if f == start => return None,
-                Some(f) => e = f,
-                None => break,
-            }
-        }
-        // u lies on the border: the other way round from where the search began.
-        let mut e = start;
-        while let Some(f) = cw(e) {
-            if self.origin_of(next(f)) == v.0 {
-                return Some(HalfEdge(f));
-            }
-            e = f;
-        }
-        None
+            last = last.and_then(|f| self.link(f).twin()).map(next);
+            Some(e)
+        };
+        std::iter::from_fn(turn)
+            .filter(|&e| self.slots[(e >> 2) as usize].is_inside())
+            .map(HalfEdge)
     }
 
     /// Birth that triangles created from now on carry.

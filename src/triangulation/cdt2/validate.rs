@@ -56,7 +56,7 @@ impl<K: Kernel> Cdt2<K> {
             }
         }
         let free = self.slots.iter().filter(|s| s.is_free()).count();
-        if let Some(&t) = self.free.iter().find(|&&t| self.is_live(TriId(t))) {
+        if let Some(&t) = self.free.iter().find(|&&t| self.holds(t)) {
             return Err(Violation::Free(TriId(t)));
         }
         if free != self.free.len()
@@ -68,7 +68,7 @@ impl<K: Kernel> Cdt2<K> {
         for (v, (&hint, used)) in (0u32..).zip(self.hints.iter().zip(used)) {
             let good = match hint {
                 NONE => !used,
-                e => self.is_live(TriId(e >> 2)) && e & 3 < 3 && self.origin_of(e) == v,
+                e => self.holds(e >> 2) && e & 3 < 3 && self.origin_of(e) == v,
             };
             if !good {
                 return Err(Violation::Hint(VertexId(v)));
@@ -77,12 +77,17 @@ impl<K: Kernel> Cdt2<K> {
         Ok(())
     }
 
+    /// Whether the slot holds a triangle, of the region or outside.
+    fn holds(&self, t: u32) -> bool {
+        self.slots.get(t as usize).is_some_and(|s| !s.is_free())
+    }
+
     fn validate_link(&self, e: u32) -> Result<(), Violation> {
         let link = self.link(e);
         let ends = [self.origin_of(e), self.origin_of(next(e))];
         let violation = Violation::Link(VertexId(ends[0]), VertexId(ends[1]));
         let Some(f) = link.twin() else { return Ok(()) };
-        if !self.is_live(TriId(f >> 2)) {
+        if !self.holds(f >> 2) {
             return Err(Violation::Free(TriId(f >> 2)));
         }
         let back = self.link(f);

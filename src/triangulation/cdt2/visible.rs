@@ -83,32 +83,6 @@ impl<K: Kernel> Cdt2<K> {
             && K::walk_side(from, a, self.point(self.destination(e))).is_positive()
     }
 
-    /// The half-edges with origin v, counterclockwise where they are contiguous.
-    pub fn edges_around(&self, v: VertexId) -> Vec<HalfEdge> {
-        let Some(first) = self.edge_from(v) else {
-            return Vec::new();
-        };
-        let mut out = vec![first];
-        let mut e = first;
-        while let Some(next) = self.twin(self.prev(e)) {
-            if next == first {
-                return out;
-            }
-            out.push(next);
-            e = next;
-        }
-        // v is on the boundary: the rest lies clockwise of the first
-        let mut e = first;
-        let mut before = Vec::new();
-        while let Some(twin) = self.twin(e) {
-            e = self.next(twin);
-            before.push(e);
-        }
-        before.reverse();
-        before.append(&mut out);
-        before
-    }
-
     /// Whether vertex w sees the target on the subsegment uv.
     ///
     /// The open cone from w to uv is sent through the triangles and clipped by every edge it crosses.
