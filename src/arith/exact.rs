@@ -1,4 +1,5 @@
 //! The exact kernel: naive rationals on GMP, no filter, and formulas other than the fast kernel's wherever there are any.
+//! (Signs and ratios that no scale changes are taken of integers over a common denominator, to save reductions.)
 //!
 //! Where `poly` works with differences to a corner and cleared denominators, this file takes absolute coordinates and each
 //! definition as it is written: a circumcenter is the solution of two bisector equations by Cramer's rule, a point is in
@@ -122,14 +123,86 @@ fn radius2(t: &[Exact2; 3]) -> Option<Rational> {
     center(t).map(|o| o.dist2(&t[0]))
 }
 
+/// A point whose coordinates are integers over a common power of two: enough for signs and ratios that no scale changes,
+/// and far cheaper than reducing every intermediate fraction.
+struct Integer2 {
+    x: Integer,
+    y: Integer,
+}
+
+/// The points over the finest power of two among their coordinates.
+fn over_common_power<const N: usize>(points: [Point2; N]) -> [Integer2; N] {
+    let parts = |x: f64| {
+        let field = ((x.to_bits() >> 52) & 0x7ff) as u32;
+        let fraction = x.to_bits() & ((1 << 52) - 1);
+        let m = if field == 0 {
+            fraction
+        } else {
+            fraction | 1 << 52
+        } as i64;
+        (if x < 0.0 { -m } else { m }, field.max(1))
+    };
+    let coordinates = points.iter().flat_map(|p| [p.x, p.y]);
+    let nonzero = coordinates.map(parts).filter(|&(m, _)| m != 0);
+    let finest = nonzero.map(|(_, e)| e).min().unwrap_or(0);
+    let integer = |x: f64| {
+        let (m, e) = parts(x);
+        Integer::from(m) << e.saturating_sub(finest)
+    };
+    points.map(|p| Integer2 {
+        x: integer(p.x),
+        y: integer(p.y),
+    })
+}
+
+impl Integer2 {
+    fn norm2(&self) -> Integer {
+        self.x.clone().square() + self.y.clone().square()
+    }
+    fn dist2(&self, other: &Integer2) -> Integer {
+        (&self.x - &other.x).complete().square() + (&self.y - &other.y).complete().square()
+    }
+    fn scaled(&self, w: &Integer) -> Integer2 {
+        Integer2 {
+            x: (&self.x * w).complete(),
+            y: (&self.y * w).complete(),
+        }
+    }
+}
+
+/// Twice the signed area: the determinant of the rows (1, x, y).
+fn integer_cross(a: &Integer2, b: &Integer2, c: &Integer2) -> Integer {
+    let minor = |p: &Integer2, q: &Integer2| (&p.x * &q.y).complete() - (&q.x * &p.y).complete();
+    minor(a, b) + minor(b, c) + minor(c, a)
+}
+
+/// The point of equal distance to three as (x, w), the center being x/w; w is 0 if they are collinear.
+fn integer_center([a, b, c]: &[Integer2; 3]) -> (Integer2, Integer) {
+    // 2 (b - a).x = |b|^2 - |a|^2 and the same for c; Cramer's rule.
+    let (n, nb, nc) = (a.norm2(), b.norm2(), c.norm2());
+    let (g, h) = (nb - &n, nc - n);
+    let (ex, ey) = ((&b.x - &a.x).complete(), (&b.y - &a.y).complete());
+    let (fx, fy) = ((&c.x - &a.x).complete(), (&c.y - &a.y).complete());
+    let x = (&g * &fy).complete() - (&h * &ey).complete();
+    let y = (&ex * &h).complete() - (&fx * &g).complete();
+    (Integer2 { x, y }, (ex * fy - ey * fx) << 1u32)
+}
+
 /// r^2/l^2; `None` (infinite) if the corners are collinear.
 fn ratio2(t: Corners) -> Option<Rational> {
-    let t = exact(t);
+    let t = over_common_power(t);
+    let (o, w) = integer_center(&t);
+    if w.cmp0() == Ordering::Equal {
+        return None;
+    }
     let shortest = t[0]
         .dist2(&t[1])
         .min(t[1].dist2(&t[2]))
         .min(t[2].dist2(&t[0]));
-    Some(radius2(&t)? / shortest)
+    Some(Rational::from((
+        t[0].scaled(&w).dist2(&o),
+        shortest * w.square(),
+    )))
 }
 
 /// r^2/h^2; `None` (infinite) if the corners are collinear.
@@ -294,30 +367,37 @@ fn off_center([p, q, c]: &[Exact2; 3], kappa: f64) -> Result<OffCenter, OutOfRan
 
 impl Kernel for ExactKernel {
     fn orient2d(a: Point2, b: Point2, c: Point2) -> Sign {
-        sign(cross(&a.into(), &b.into(), &c.into()).cmp0())
+        let [a, b, c] = over_common_power([a, b, c]);
+        sign(integer_cross(&a, &b, &c).cmp0())
     }
 
-    fn in_circle(t: Corners, q: Point2) -> Sign {
-        let t = exact(t);
-        // Collinear corners have no circle; the contract asks for a counterclockwise triangle.
-        let Some(o) = center(&t) else {
-            return Sign::Zero;
-        };
-        sign(o.dist2(&t[0]).cmp(&o.dist2(&q.into())))
+    fn in_circle([a, b, c]: Corners, q: Point2) -> Sign {
+        let [a, b, c, q] = over_common_power([a, b, c, q]);
+        let t = [a, b, c];
+        // Collinear corners have no circle (w = 0, both distances alike); the contract asks for a counterclockwise triangle.
+        let (o, w) = integer_center(&t);
+        sign(t[0].scaled(&w).dist2(&o).cmp(&q.scaled(&w).dist2(&o)))
     }
 
     fn in_diametral_circle(u: Point2, v: Point2, w: Point2) -> Sign {
-        let (u, v) = (Exact2::from(u), Exact2::from(v));
-        sign((u.dist2(&v) / 4u32).cmp(&u.midpoint(&v).dist2(&w.into())))
+        let [u, v, w] = over_common_power([u, v, w]);
+        // Twice the center and twice w, against the diameter.
+        let center = Integer2 {
+            x: (&u.x + &v.x).complete(),
+            y: (&u.y + &v.y).complete(),
+        };
+        sign(u.dist2(&v).cmp(&center.dist2(&w.scaled(&Integer::from(2)))))
     }
 
-    fn walk_side(t: Corners, q: Point2, w: Point2) -> Sign {
-        let [a, b, c] = exact(t);
-        let centroid = Exact2 {
-            x: (a.x + b.x + c.x) / 3u32,
-            y: (a.y + b.y + c.y) / 3u32,
+    fn walk_side([a, b, c]: Corners, q: Point2, w: Point2) -> Sign {
+        let [a, b, c, q, w] = over_common_power([a, b, c, q, w]);
+        // Three times the centroid, and everything else three times as large.
+        let centroid = Integer2 {
+            x: a.x + b.x + c.x,
+            y: a.y + b.y + c.y,
         };
-        sign(cross(&centroid, &q.into(), &w.into()).cmp0())
+        let three = Integer::from(3);
+        sign(integer_cross(&centroid, &q.scaled(&three), &w.scaled(&three)).cmp0())
     }
 
     fn edge_meets_diametral_disk(u: Point2, v: Point2, a: Point2, b: Point2) -> bool {
