@@ -271,6 +271,12 @@ pub struct ReplayArgs {
 pub struct ReproduceArgs {
     /// gcdr-table-7.1 or gcdr-figure-7.1
     pub name: String,
+    /// Seeds of Experiment 2 of the table
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    pub seeds: u64,
+    /// Where to draw the figure (.svg)
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
     /// One JSON object on stdout
     #[arg(long)]
     pub json: bool,

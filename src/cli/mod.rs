@@ -13,6 +13,7 @@ mod mesh;
 mod outputs;
 mod parameters;
 mod report;
+mod reproduce;
 mod watch;
 
 use args::{Arguments, Command};
@@ -78,6 +79,7 @@ fn dispatch(command: &Command) -> Answer {
         Command::Doctor(args) => doctor::run(args),
         Command::Diff(args) => diff::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::Reproduce(args) => reproduce::run(args),
         _ => Err(Failure::new("not wired")),
     }
 }
