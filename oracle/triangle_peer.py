@@ -3,7 +3,7 @@
 
   triangle_peer.py delaunay POINTS
   triangle_peer.py constrained POINTS SEGMENTS
-  triangle_peer.py refine SIDE AREA DEGREES
+  triangle_peer.py refine SHAPE AREA DEGREES
   triangle_peer.py mesh DEGREES AREA MAX_VERTICES < CASES
 Files and output as in README.md. Times are CPU seconds of the call, the wrapper's copies included.
 """
@@ -68,8 +68,8 @@ def main():
         data = {"vertices": np.fromfile(rest[0]).reshape(-1, 2), "segments": np.fromfile(rest[1], dtype="<u4").reshape(-1, 2).astype(np.int32)}
         result, seconds = timed(data, "pczB")
     else:
-        s = float(rest[0])
-        data = {"vertices": np.array([(0, 0), (s, 0), (s, s), (0, s)]), "segments": np.array([(0, 1), (1, 2), (2, 3), (3, 0)], dtype=np.int32)}
+        square, quad = [(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 0), (1, 0.125), (0.875, 1.0625), (-0.0625, 0.9375)]
+        data = {"vertices": np.array(square if rest[0] == "square" else quad, dtype=float), "segments": np.array([(0, 1), (1, 2), (2, 3), (3, 0)], dtype=np.int32)}
         result, seconds = timed(data, f"pq{rest[2]}a{float(rest[1]):.17f}")
         extra = f" {quality(result)[0]:.4f}"
     print(f"{seconds:.4f} {len(result['vertices'])} {len(result['triangles'])}{extra}")

@@ -2,7 +2,7 @@
 //
 //   bench delaunay POINTS            bulk insertion (spatial sort inside)
 //   bench constrained POINTS SEGMENTS
-//   bench refine SIDE AREA DEGREES   Mesh_2 of a square
+//   bench refine SHAPE AREA DEGREES  Mesh_2 of the square or the quad of examples/bench.rs
 //
 // POINTS: pairs of little-endian f64; SEGMENTS: pairs of u32. Prints seconds, vertices, triangles, smallest angle (refine).
 #include "common.hpp"
@@ -28,8 +28,9 @@ static void constrained(const char* path, const char* segments_path) {
   std::printf("%.4f %zu %zu\n", cpu_seconds() - start, std::size_t(t.number_of_vertices()), std::size_t(t.number_of_faces()));
 }
 
-static void refine(double side, double area, double degrees) {
-  const std::vector<Point> corners{{0, 0}, {side, 0}, {side, side}, {0, side}};
+static void refine(bool square, double area, double degrees) {
+  const std::vector<Point> corners = square ? std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}
+                                            : std::vector<Point>{{0, 0}, {1, 0.125}, {0.875, 1.0625}, {-0.0625, 0.9375}};
   const double start = cpu_seconds();
   MeshTriangulation t;
   t.insert_constraint(corners.begin(), corners.end(), true);
@@ -43,6 +44,6 @@ int main(int argc, char** argv) {
   const std::string mode = argc > 1 ? argv[1] : "";
   if (mode == "delaunay" && argc == 3) delaunay(argv[2]);
   else if (mode == "constrained" && argc == 4) constrained(argv[2], argv[3]);
-  else if (mode == "refine" && argc == 5) refine(std::atof(argv[2]), std::atof(argv[3]), std::atof(argv[4]));
+  else if (mode == "refine" && argc == 5) refine(std::string(argv[2]) == "square", std::atof(argv[3]), std::atof(argv[4]));
   else return 2;
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! spade-peer delaunay POINTS
 //! spade-peer constrained POINTS SEGMENTS
-//! spade-peer refine SIDE AREA DEGREES
+//! spade-peer refine SHAPE AREA DEGREES
 //! spade-peer mesh DEGREES AREA MAX_VERTICES < CASES
 //! ```
 //!
@@ -110,11 +110,14 @@ fn main() {
             let t = Cdt::bulk_load_cdt(points, segments).expect("points in range");
             println!("{:.4} {} {}", cpu_seconds() - start, t.num_vertices(), t.num_inner_faces());
         }
-        ["refine", side, area, degrees] => {
-            let side = number(side);
-            let corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(x, y)| Point2::new(x, y));
+        ["refine", shape, area, degrees] => {
+            let corners = match shape {
+                "square" => [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)],
+                _ => [(0.0, 0.0), (1.0, 0.125), (0.875, 1.0625), (-0.0625, 0.9375)],
+            };
+            let corners = corners.map(|(x, y)| Point2::new(x, y));
             let start = cpu_seconds();
-            let mut t = Cdt::bulk_load_cdt(corners.to_vec(), vec![[0, 1], [1, 2], [2, 3], [3, 0]]).expect("a square");
+            let mut t = Cdt::bulk_load_cdt(corners.to_vec(), vec![[0, 1], [1, 2], [2, 3], [3, 0]]).expect("a simple polygon");
             t.refine(parameters(number(degrees), number(area), 100_000_000));
             let seconds = cpu_seconds() - start;
             let (triangles, angle, _) = quality(&t, &HashSet::new());
