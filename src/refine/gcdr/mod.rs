@@ -44,14 +44,21 @@ use split::Split;
 const STOP_INTERVAL: u64 = 64;
 
 /// What the refiner knows of a vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Input,
     Free,
     Segment {
         segment: SegmentId,
-        shell: Option<Shell>,
+        rung: Option<Rung>,
     },
+}
+
+/// The nominal distance of a vertex on a segment from the apex at its end: what it would be without rounding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Rung {
+    apex: VertexId,
+    distance: f64,
 }
 
 /// The state of a run.
@@ -329,7 +336,8 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             self.cdt.split(e, p, &mut change);
         }
         self.note_interval([u, v], kind, p);
-        self.kinds.push(Kind::Segment { segment, shell });
+        let rung = self.rung([u, v], kind, shell);
+        self.kinds.push(Kind::Segment { segment, rung });
         self.splits[segment.0 as usize] += 1;
         match kind {
             SplitKind::B => self.counts.type_b += 1,

@@ -3,9 +3,10 @@
 //! Source: `docs/gcdr.md`, small input angles (outside the theorem).
 
 use super::queue::shortest_edge;
-use super::{Kind, Refiner};
-use crate::arith::Kernel;
-use crate::model::{Point2, SegmentId, VertexId};
+use super::{Kind, Refiner, Rung};
+use crate::arith::{Kernel, scale};
+use crate::model::{Choice, Point2, SegmentId, VertexId};
+use crate::trace::{Shell, SplitKind};
 use crate::triangulation::cdt2::{Cdt2, HalfEdge, TriId};
 use std::cmp::Ordering;
 
@@ -83,16 +84,13 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         })
     }
 
-    /// The apex on one of whose shells both x and y lie, on different segments below 60 degrees apart.
+    /// The apex from which x and y have equal nominal distances, on different segments below 60 degrees apart.
     fn seditious(&self, x: VertexId, y: VertexId) -> Option<VertexId> {
-        let shell = |v: VertexId| match self.kinds[v.index()] {
-            Kind::Segment {
-                segment,
-                shell: Some(shell),
-            } => Some((segment, shell)),
+        let on_segment = |v: VertexId| match self.kinds[v.index()] {
+            Kind::Segment { segment, rung } => rung.map(|rung| (segment, rung)),
             _ => None,
         };
-        let ((s1, a), (s2, b)) = (shell(x)?, shell(y)?);
+        let ((s1, a), (s2, b)) = (on_segment(x)?, on_segment(y)?);
         let small = a == b && s1 != s2 && {
             let far = |s: SegmentId| {
                 let [u, v] = self.segments[s.index()];
@@ -101,5 +99,35 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             is_small::<K>(self.cdt.point(a.apex), far(s1), far(s2))
         };
         small.then_some(a.apex)
+    }
+
+    /// The rung of a point that splits uv: 2^k on a shell; halfway between two rungs of one apex for a midpoint.
+    pub(super) fn rung(
+        &self,
+        s: [VertexId; 2],
+        kind: SplitKind,
+        shell: Option<Shell>,
+    ) -> Option<Rung> {
+        if let Some(Shell { apex, k }) = shell {
+            return Some(Rung {
+                apex,
+                distance: scale::by_power_of_two(1.0, k),
+            });
+        }
+        let choice = if kind == SplitKind::B {
+            self.params.choice_b
+        } else {
+            self.params.choice_c
+        };
+        let rung_of = |v: VertexId| match self.kinds[v.index()] {
+            Kind::Segment { rung, .. } => rung,
+            _ => None,
+        };
+        let [a, b] = [rung_of(s[0])?, rung_of(s[1])?];
+        let halfway = choice == Choice::Center && a.apex == b.apex;
+        halfway.then_some(Rung {
+            apex: a.apex,
+            distance: (a.distance + b.distance) / 2.0,
+        })
     }
 }
