@@ -404,7 +404,7 @@ fn effective_level(replay: &Replay, header: &Option<Header>, sectors: &[Sector])
         .and_then(|h| h.level)
         .unwrap_or(Level::Outside);
     let regions = &replay.regions;
-    if !regions.left_nominal {
+    if nominal == Level::Outside || !regions.left_nominal {
         nominal
     } else if !regions.left_slack {
         promise::level(&replay.parameters, regions.slack, &replay.mesh, sectors)

@@ -27,7 +27,7 @@ pub fn check_end(replay: &Replay, end: &End) -> Checked {
     let mut unmet = 0;
     for t in replay.mesh.triangles() {
         let facts = replay.mesh.facts(t);
-        unmet += u32::from(facts.skipped_skinny || facts.skipped_oversized);
+        unmet += u32::from(facts.skipped_skinny) + u32::from(facts.skipped_oversized);
         if end.outcome == Outcome::Stopped {
             continue;
         }

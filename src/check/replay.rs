@@ -449,7 +449,7 @@ impl Replay {
                 format!("{a:?}"),
             )
         })?;
-        let deltas = self.regions.disk(corners, a);
+        let deltas = self.regions.disk_of_rejected(corners, a);
         let s = match walk(&self.mesh, t, a) {
             Arrival::Edge(s) => s,
             other => {
@@ -709,6 +709,14 @@ impl Replay {
         let mut regions = [NONE; 2];
         for (i, &e) in sides.iter().enumerate() {
             if let Some(t) = self.mesh.inside(e) {
+                // Else the rounded p is so far off s that the edge from it to the apex is not Delaunay.
+                let bulges = in_conflict(self.mesh.places(t), split.p);
+                ensure(bulges, Rule::Delaunay, || {
+                    (
+                        "a point in conflict with the triangles at its subsegment",
+                        format!("{:?}", split.p),
+                    )
+                })?;
                 let (start, triangles) = (self.rim.len(), self.destroyed.len());
                 regions[i] = self.mesh.facts(t).region;
                 self.flood_root(t, &[next(e), previous(e)], split.p);

@@ -64,32 +64,37 @@ impl Regions {
         }
     }
 
-    /// The parameters whose disk of t holds a.
+    /// The parameters whose disk of t holds the Type-A point a.
     pub fn disk(&mut self, t: Corners, a: Point2) -> Option<Deltas> {
+        let found = self.disk_of_rejected(t, a);
+        self.note(found)
+    }
+
+    /// The parameters whose disk of t holds the rejected point a: it is no vertex, so the effective level does not ask for it.
+    pub fn disk_of_rejected(&self, t: Corners, a: Point2) -> Option<Deltas> {
         self.smallest(|d| in_selection_disk(t, d.d2, a))
     }
 
     /// The parameters whose interval of uv holds p.
     pub fn interval(&mut self, kind: SplitKind, [u, v]: [Point2; 2], p: Point2) -> Option<Deltas> {
-        self.smallest(|d| {
+        let found = self.smallest(|d| {
             let delta = if kind == SplitKind::B { d.d1 } else { d.mu };
             in_selection_interval(u, v, delta, p)
-        })
+        });
+        self.note(found)
     }
 
-    fn smallest(&mut self, holds: impl Fn(Deltas) -> bool) -> Option<Deltas> {
+    fn smallest(&self, holds: impl Fn(Deltas) -> bool) -> Option<Deltas> {
         if !self.claimed {
             return None;
         }
-        if holds(self.nominal) {
-            return Some(self.nominal);
-        }
-        self.left_nominal = true;
-        if holds(self.slack) {
-            return Some(self.slack);
-        }
-        self.left_slack = true;
-        None
+        [self.nominal, self.slack].into_iter().find(|&d| holds(d))
+    }
+
+    fn note(&mut self, found: Option<Deltas>) -> Option<Deltas> {
+        self.left_nominal |= found != Some(self.nominal);
+        self.left_slack |= found.is_none();
+        found
     }
 }
 

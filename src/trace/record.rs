@@ -197,7 +197,7 @@ pub struct Counts {
     pub type_c: u32,
     /// Deletions.
     pub removed: u32,
-    /// Bad triangles of the mesh that were left.
+    /// Bad triangles of the mesh that were left; one left for two causes counts twice.
     pub unmet: u32,
 }
 

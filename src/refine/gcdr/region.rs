@@ -1,7 +1,7 @@
 //! Selection regions of stored points, and users' choices in them. Source: [GCDR] Definitions 3.1-3.3.
 
 use super::Refiner;
-use crate::arith::Kernel;
+use crate::arith::{Dyadic, Kernel};
 use crate::model::{Choice, DiskChoice, Point2, Triangle, VertexId};
 use crate::refine::{DiskRequest, IntervalRequest, RunError};
 use crate::trace::SplitKind;
@@ -113,7 +113,13 @@ impl<K: Kernel> Refiner<'_, '_, K> {
     }
 }
 
-/// delta (1 - 2^-20), rounded down: the product of two f64s is within half an ulp of its rounded value.
+/// delta (1 - 2^-20), rounded down.
 pub(super) fn slackened(delta: f64) -> f64 {
-    (delta * (1.0 - SLACK)).next_down()
+    let exact = |x: f64| Dyadic::from_f64(x).unwrap_or_else(|| Dyadic::integer(0));
+    let rounded = delta * (1.0 - SLACK);
+    if exact(rounded) > &exact(delta) * &exact(1.0 - SLACK) {
+        rounded.next_down()
+    } else {
+        rounded
+    }
 }

@@ -119,11 +119,14 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             .ok_or(SkipReason::Resolution)
     }
 
-    /// Whether every triangle that the split makes at s is positively oriented.
+    /// Whether p is in conflict with the triangles at s, and every triangle that the split makes there is positively
+    /// oriented. Both are true of the exact point; a rounded one can lie further off s than the circles bulge beyond it.
     pub(super) fn splits_properly(&self, [u, v]: [VertexId; 2], p: Point2) -> bool {
         let (pu, pv) = (self.cdt.point(u), self.cdt.point(v));
         let proper = |from: Point2, to: Point2, apex: Point2| {
-            K::orient2d(from, p, apex).is_positive() && K::orient2d(p, to, apex).is_positive()
+            K::orient2d(from, p, apex).is_positive()
+                && K::orient2d(p, to, apex).is_positive()
+                && K::in_conflict([from, to, apex], p)
         };
         let left = self
             .cdt
