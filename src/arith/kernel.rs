@@ -117,6 +117,7 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
 
     /// Whether q is in conflict with the counterclockwise triangle t under the one tie-break: strictly inside its
     /// circle, or on it and inside after the perturbation of `arith::perturb`. q differs from the corners.
+    #[inline(always)]
     fn in_conflict(t: Corners, q: Point2) -> bool {
         match Self::in_circle(t, q) {
             Sign::Positive => true,

@@ -227,53 +227,77 @@ impl<K: Kernel> Builder<K> {
 
     /// Replaces the conflict zone by cells from point number `i` to the boundary; returns a finite one.
     fn star(&mut self, i: u32) -> u32 {
-        let m = self.rim.len();
-        for _ in self.zone.len()..m {
+        for _ in self.zone.len()..self.rim.len() {
             self.zone.push(self.cells.len() as u32);
             self.cells.push(Cell {
                 v: [INFINITE; 3],
                 twin: [0; 3],
             });
         }
-        let mut finite = 0;
-        let mut before = m - 1;
-        for here in 0..m {
-            let after = if here + 1 < m { here + 1 } else { 0 };
-            let (x, outer) = self.rim[here];
-            let y = self.rim[after].0;
-            let t = self.zone[here];
-            // Where the outer edge, the one after and the one before it stand, so that the infinite vertex is corner 2.
-            let turn = |x: u32, y: u32| {
-                if x == INFINITE {
-                    2
-                } else {
-                    u32::from(y == INFINITE)
-                }
+        if self.rim.iter().any(|&(x, _)| x == INFINITE) {
+            self.star_outside(i)
+        } else {
+            self.star_inside(i)
+        }
+    }
+
+    /// The same where the infinite vertex is not on the boundary: edge 0 of a cell is the boundary's, edge 1 leads to point `i`.
+    fn star_inside(&mut self, i: u32) -> u32 {
+        let m = self.rim.len();
+        let (first, mut before) = (self.zone[0], self.zone[m - 1]);
+        let (first_x, mut outer) = self.rim[0];
+        let (mut t, mut x) = (first, first_x);
+        for here in 1..=m {
+            let (after, (y, next_outer)) = if here < m {
+                (self.zone[here], self.rim[here])
+            } else {
+                (first, (first_x, NONE))
             };
-            let k = turn(x, y);
-            let spoke_after = 4 * self.zone[after]
-                + (turn(y, self.rim[if after + 1 < m { after + 1 } else { 0 }].0) + 2) % 3;
-            let spoke_before = 4 * self.zone[before] + (turn(self.rim[before].0, x) + 1) % 3;
-            let cell = &mut self.cells[t as usize];
-            *cell = match k {
+            let twin = [outer, 4 * after + 2, 4 * before + 1];
+            self.cells[t as usize] = Cell { v: [x, y, i], twin };
+            self.cells[(outer >> 2) as usize].twin[((outer & 3) as usize).min(2)] = 4 * t;
+            (before, t, x, outer) = (t, after, y, next_outer);
+        }
+        first
+    }
+
+    /// The same where the infinite vertex is on the boundary: two cells are ghosts and turned so that it is corner 2.
+    fn star_outside(&mut self, i: u32) -> u32 {
+        let m = self.rim.len();
+        let vertex = |rim: &[(u32, u32)], here: usize| rim[here % m].0;
+        // The corner from which the boundary's edge goes in cell number `here`.
+        let turn =
+            |rim: &[(u32, u32)], here: usize| match (vertex(rim, here), vertex(rim, here + 1)) {
+                (INFINITE, _) => 2,
+                (_, INFINITE) => 1,
+                _ => 0,
+            };
+        let mut finite = 0;
+        for here in 0..m {
+            let (x, outer) = self.rim[here];
+            let y = vertex(&self.rim, here + 1);
+            let (t, k) = (self.zone[here], turn(&self.rim, here));
+            let after = 4 * self.zone[(here + 1) % m] + (turn(&self.rim, here + 1) + 2) % 3;
+            let before =
+                4 * self.zone[(here + m - 1) % m] + (turn(&self.rim, here + m - 1) + 1) % 3;
+            self.cells[t as usize] = match k {
                 0 => Cell {
                     v: [x, y, i],
-                    twin: [outer, spoke_after, spoke_before],
+                    twin: [outer, after, before],
                 },
                 1 => Cell {
                     v: [i, x, y],
-                    twin: [spoke_before, outer, spoke_after],
+                    twin: [before, outer, after],
                 },
                 _ => Cell {
                     v: [y, i, x],
-                    twin: [spoke_after, spoke_before, outer],
+                    twin: [after, before, outer],
                 },
             };
             if k == 0 {
                 finite = t;
             }
             self.cells[(outer >> 2) as usize].twin[(outer & 3) as usize] = 4 * t + k;
-            before = here;
         }
         finite
     }

@@ -7,6 +7,7 @@
 //! the entry edge the circle stays between their lines. This holds with ties too, and for a split point off its segment
 //! once the triangles with the ends and apexes are positively oriented (section 4.3 of `docs/gcdr.md`).
 
+use super::polygon::Polygon;
 use super::store::{Cdt2, Change, HalfEdge, Link, NONE, OUTSIDE, Slot, TriId, next, prev};
 use crate::arith::Kernel;
 use crate::model::{Point2, VertexId};
@@ -28,6 +29,8 @@ pub(super) struct Scratch {
     zone: Vec<u32>,
     /// Boundary of the cavity, counterclockwise.
     rim: Vec<Rim>,
+    /// The star of a vertex to be deleted.
+    pub(super) polygon: Polygon,
 }
 
 /// What becomes of the two half-edges from the ends of a cavity's boundary to p.

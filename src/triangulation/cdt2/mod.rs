@@ -18,8 +18,6 @@ mod remove;
 mod spatial;
 mod store;
 #[cfg(test)]
-mod test_kernel;
-#[cfg(test)]
 mod tests;
 mod validate;
 mod visible;

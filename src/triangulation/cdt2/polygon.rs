@@ -1,8 +1,11 @@
 //! The constrained Delaunay triangulation of a polygon: what is filled in after a deletion or under a new segment.
 //!
-//! Idea: clip ears by exact orientation, then flip edges that are not locally Delaunay (Lawson). The work is done on a
-//! small triangulation of its own with vertices numbered along the polygon, so that a vertex may occur twice on the
-//! boundary, and outer edges are never flipped; the store sees only the result.
+//! Idea: clip ears in random order down to one triangle, then put them back, last first, each followed by the flips that a new vertex
+//! needs (Lawson). On a convex polygon that is Chew's randomised algorithm, linear in the mean ("Building Voronoi diagrams for
+//! convex polygons in linear expected time", 1990); a fixed order of ears would take quadratic time on smooth arcs.
+//! The work is done on a small triangulation of its own with vertices numbered along the polygon, so that a vertex may
+//! occur twice on the boundary, and sides are never flipped; the store sees only the result. The result is unique, so the random order,
+//! which is the same in every run, does not show.
 
 use super::store::{Cdt2, Link, NONE, PRED, SUCC, Slot, TriId};
 use crate::arith::Kernel;
@@ -32,76 +35,44 @@ pub(super) struct Polygon {
     pub(super) sides: Vec<Side>,
     points: Vec<Point2>,
     pieces: Vec<Piece>,
-    /// Where each polygon side ended up: a half-edge `4 t + k` of `pieces`.
+    /// Per side of the polygon as clipped so far, by the position it starts from: the half-edge of `pieces` along it.
     place: Vec<u32>,
     suspects: Vec<u32>,
+    clipped: Vec<[u32; 3]>,
+    /// Neighbors along the polygon as clipped so far: the one before, the one after. Clipped corners are their own.
+    around: Vec<[u32; 2]>,
+    candidates: Vec<u32>,
 }
 
 impl Polygon {
-    /// Starts anew with the given sides.
+    /// Starts anew, without sides.
     pub(super) fn reset(&mut self) {
         self.sides.clear();
     }
 
-    /// Triangulates a polygon that is weakly visible from its side 0: every point is seen from some point of that side.
-    /// Vertices may occur more than once.
+    /// Triangulates a polygon that is weakly visible from its side 0: every vertex has a sight line to some point of that side,
+    /// and these do not cross. Vertices may occur more than once.
     ///
-    /// The vertices from the end of side 0 on are scanned, keeping a chain that turns right everywhere; each new vertex closes
-    /// triangles with the chain's end while that turns left. No other vertex lies in such a triangle, since the sight lines to
-    /// side 0 do not cross. The chain left at last would turn right all the way on the left of side 0, so it has no inner vertex.
+    /// An ear is any corner off side 0 that turns left: no other vertex lies in its triangle, whose third edge stays between the
+    /// sight lines of its ends; and the rest has the same property. There is an ear, for a chain without one
+    /// turns right all the way and cannot lie left of side 0.
     pub(super) fn triangulate_below<K: Kernel>(&mut self, points: &[Point2]) {
         self.load(points);
-        let n = self.sides.len() as u32;
-        // (position, link behind the chain's edge that leads to it)
-        let mut chain: Vec<(u32, u32)> = Vec::with_capacity(8);
-        chain.push((1, OUTER));
-        for w in (2..n).chain([0]) {
-            let mut link = OUTER | if w == 0 { n - 1 } else { w - 1 };
-            while let [.., (a, _), (b, behind)] = chain[..] {
-                if !self.turns_left::<K>(a, b, w) {
-                    break;
-                }
-                link = self.clip([a, b, w], behind, link);
-                chain.pop();
-            }
-            chain.push((w, link));
-        }
-        debug_assert_eq!(chain.len(), 2);
-        self.close(chain[1].1, 0);
-        self.restore_delaunay::<K>();
+        self.clip_ears(|polygon, [a, b, c]| b > 1 && polygon.turns_left::<K>(a, b, c));
+        self.restore_ears::<K>();
     }
 
-    /// Triangulates a polygon that is star-shaped around a point c, strictly inside it.
+    /// Triangulates a polygon that is star-shaped around a point, strictly inside it.
     ///
-    /// A corner is clipped if it turns left and c is left of, or on, the edge that clips it; the rest stays star-shaped. Such
-    /// a corner exists: insert c in the Delaunay triangulation of the rest and undo it by flips.
-    pub(super) fn triangulate_around<K: Kernel>(&mut self, points: &[Point2], c: Point2) {
+    /// An ear is a corner that turns left with the center left of, or on, the edge that clips it; the rest is star-shaped
+    /// again. There is one: insert the center in the Delaunay triangulation of the rest and undo it by flips.
+    pub(super) fn triangulate_around<K: Kernel>(&mut self, points: &[Point2], center: Point2) {
         self.load(points);
-        let n = self.sides.len();
-        let mut next: Vec<u32> = (1..n as u32).chain([0]).collect();
-        // Link behind the edge that leads from a position to its next one.
-        let mut behind: Vec<u32> = (0..n as u32).map(|i| OUTER | i).collect();
-        let (mut a, mut left, mut idle) = (0u32, n, 0);
-        while left > 3 {
-            let b = next[a as usize];
-            let d = next[b as usize];
-            let [pa, pd] = [self.points[a as usize], self.points[d as usize]];
-            if self.turns_left::<K>(a, b, d) && !K::orient2d(pa, pd, c).is_negative() {
-                behind[a as usize] = self.clip([a, b, d], behind[a as usize], behind[b as usize]);
-                next[a as usize] = d;
-                left -= 1;
-                idle = 0;
-            } else {
-                a = b;
-                idle += 1;
-                assert!(idle <= left, "the star of a vertex has an ear");
-            }
-        }
-        let b = next[a as usize];
-        let d = next[b as usize];
-        let link = self.clip([a, b, d], behind[a as usize], behind[b as usize]);
-        self.connect(link, behind[d as usize]);
-        self.restore_delaunay::<K>();
+        self.clip_ears(|polygon, [a, b, c]| {
+            let [pa, pc] = [a, c].map(|i| polygon.points[i as usize]);
+            polygon.turns_left::<K>(a, b, c) && !K::orient2d(pa, pc, center).is_negative()
+        });
+        self.restore_ears::<K>();
     }
 
     fn load(&mut self, points: &[Point2]) {
@@ -109,27 +80,102 @@ impl Polygon {
         self.points
             .extend(self.sides.iter().map(|s| points[s.origin as usize]));
         self.pieces.clear();
+        self.clipped.clear();
         self.place.clear();
         self.place.resize(self.sides.len(), NONE);
+    }
+
+    /// Takes ears off until a triangle is left, and takes that.
+    fn clip_ears(&mut self, is_ear: impl Fn(&Polygon, [u32; 3]) -> bool) {
+        // Positions fit: there are fewer sides than half-edges.
+        let n = self.sides.len() as u32;
+        self.around.clear();
+        self.around.extend((0..n).map(|i| {
+            [
+                if i == 0 { n - 1 } else { i - 1 },
+                if i + 1 == n { 0 } else { i + 1 },
+            ]
+        }));
+        self.candidates.clear();
+        self.candidates.extend(0..n);
+        let mut random = 0x9e37_79b9_u32;
+        let mut last = 0;
+        let mut left = n;
+        while left > 3 {
+            random ^= random << 13;
+            random ^= random >> 17;
+            random ^= random << 5;
+            assert!(!self.candidates.is_empty(), "such a polygon has an ear");
+            let b = self
+                .candidates
+                .swap_remove(random as usize % self.candidates.len());
+            let [a, c] = self.around[b as usize];
+            if c == b || !is_ear(self, [a, b, c]) {
+                continue;
+            }
+            self.clipped.push([a, b, c]);
+            self.around[a as usize][1] = c;
+            self.around[c as usize][0] = a;
+            self.around[b as usize] = [b, b];
+            self.candidates.extend([a, c]);
+            last = a;
+            left -= 1;
+        }
+        let [before, after] = self.around[last as usize];
+        self.clipped.push([last, after, before]);
+    }
+
+    /// Puts the ears back, last first; after each, flips until all edges are locally Delaunay again.
+    fn restore_ears<K: Kernel>(&mut self) {
+        let clipped = std::mem::take(&mut self.clipped);
+        let mut ears = clipped.iter().rev();
+        if let Some(&[a, b, c]) = ears.next() {
+            self.pieces.push(Piece {
+                v: [a, b, c],
+                link: [OUTER | a, OUTER | b, OUTER | c],
+            });
+            for (k, i) in [(0, a), (1, b), (2, c)] {
+                self.place[i as usize] = k;
+            }
+        }
+        for &[a, b, c] in ears {
+            let inside = self.place[a as usize];
+            let t = 4 * self.pieces.len() as u32;
+            self.pieces.push(Piece {
+                v: [a, b, c],
+                link: [NONE; 3],
+            });
+            self.connect(t, OUTER | a);
+            self.connect(t + 1, OUTER | b);
+            self.connect(t + 2, inside);
+            self.restore_delaunay::<K>(t + 2, b);
+        }
+        self.clipped = clipped;
+    }
+
+    /// Flips edges opposite to the new vertex b, beginning with e, while its circle test asks for it.
+    fn restore_delaunay<K: Kernel>(&mut self, e: u32, b: u32) {
+        let p = self.points[b as usize];
+        self.suspects.push(e);
+        while let Some(e) = self.suspects.pop() {
+            let f = self.pieces[(e >> 2) as usize].link[(e & 3) as usize];
+            if f & OUTER != 0 {
+                continue;
+            }
+            let beyond = self.pieces[(f >> 2) as usize]
+                .v
+                .map(|i| self.points[i as usize]);
+            if K::in_conflict(beyond, p) {
+                self.flip(e, f);
+                // The edges of the flipped pair that are opposite to b.
+                self.suspects.extend([(e & !3) + 1, f & !3]);
+            }
+        }
     }
 
     fn turns_left<K: Kernel>(&self, a: u32, b: u32, c: u32) -> bool {
         let p = |i: u32| self.points[i as usize];
         K::orient2d(p(a), p(b), p(c)).is_positive()
-    }
-
-    /// Adds the triangle (a, b, c) with the given links behind ab and bc; returns the link to its edge ac.
-    fn clip(&mut self, v: [u32; 3], ab: u32, bc: u32) -> u32 {
-        let t = 4 * self.pieces.len() as u32;
-        self.pieces.push(Piece { v, link: [NONE; 3] });
-        self.connect(t, ab);
-        self.connect(t + 1, bc);
-        t + 2
-    }
-
-    /// Side `position` of the polygon closes the triangulation at the given link.
-    fn close(&mut self, link: u32, position: u32) {
-        self.connect(link, OUTER | position);
     }
 
     /// Glues an inner half-edge to another one or to a side.
@@ -140,35 +186,6 @@ impl Polygon {
         } else {
             self.place[(link & !OUTER) as usize] = e;
         }
-    }
-
-    /// Flips inner edges until each is locally Delaunay.
-    fn restore_delaunay<K: Kernel>(&mut self) {
-        let mut suspects = std::mem::take(&mut self.suspects);
-        suspects.clear();
-        for t in 0..self.pieces.len() as u32 {
-            // Each inner edge once, from its triangle with the greater number.
-            suspects.extend((0..3).map(|k| 4 * t + k).filter(|&e| self.link(e) < e));
-        }
-        while let Some(e) = suspects.pop() {
-            let f = self.link(e);
-            if f & OUTER != 0 {
-                continue;
-            }
-            let corners = self.pieces[(e >> 2) as usize]
-                .v
-                .map(|i| self.points[i as usize]);
-            let apex = self.pieces[(f >> 2) as usize].v[PRED[(f & 3) as usize] as usize];
-            if K::in_conflict(corners, self.points[apex as usize]) {
-                self.flip(e, f);
-                suspects.extend([e & !3, (e & !3) + 1, f & !3, (f & !3) + 1]);
-            }
-        }
-        self.suspects = suspects;
-    }
-
-    fn link(&self, e: u32) -> u32 {
-        self.pieces[(e >> 2) as usize].link[(e & 3) as usize]
     }
 
     /// Replaces the diagonal ab of the quadrilateral a d b c by cd. The new diagonal is edge 2 of both triangles.

@@ -1,7 +1,7 @@
 //! Deletion of a free vertex: its star is a polygon without constrained edges inside; fill it anew.
 
-use super::polygon::{Polygon, Side};
-use super::store::{Cdt2, Change, NONE, TriId, next, prev};
+use super::polygon::Side;
+use super::store::{Cdt2, Change, NONE, next, prev};
 use crate::arith::Kernel;
 use crate::model::VertexId;
 
@@ -14,11 +14,10 @@ impl<K: Kernel> Cdt2<K> {
         let start = self.hints[v.index()];
         assert!(start != NONE, "the vertex has triangles");
         let region = self.slots[(start >> 2) as usize].region;
-        let mut polygon = Polygon::default();
-        let mut star = Vec::with_capacity(8);
+        let mut polygon = std::mem::take(&mut self.scratch.polygon);
+        polygon.reset();
         let mut e = start;
         loop {
-            star.push(e >> 2);
             change
                 .destroyed
                 .push(self.slots[(e >> 2) as usize].canonical());
@@ -38,12 +37,11 @@ impl<K: Kernel> Cdt2<K> {
             }
         }
         polygon.triangulate_around::<K>(&self.points, self.points[v.index()]);
-        let mut created: Vec<TriId> = std::mem::take(&mut change.created);
-        self.fill(&polygon, region, &mut created);
-        change.created = created;
-        for t in star {
-            self.release_slot(t);
+        self.fill(&polygon, region, &mut change.created);
+        for side in &polygon.sides {
+            self.release_slot(side.inner >> 2);
         }
+        self.scratch.polygon = polygon;
         self.write_hint(v.0, NONE);
     }
 }

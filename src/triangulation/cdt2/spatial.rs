@@ -94,16 +94,44 @@ fn sort_along_curve(points: &[Point2], entries: &mut [u64], spare: &mut Vec<u64>
     }
 }
 
+/// One level of the curve: for each of its four orientations, quadrant (x bit, y bit) to (rank along the curve, orientation inside).
+const LEVEL: [[(u8, u8); 4]; 4] = [
+    [(0, 1), (1, 0), (3, 3), (2, 0)],
+    [(0, 0), (3, 2), (1, 1), (2, 1)],
+    [(2, 2), (3, 1), (1, 2), (0, 3)],
+    [(2, 3), (1, 3), (3, 0), (0, 2)],
+];
+
+/// Four levels at once: 4 bits of x and of y to 8 bits of rank, and the orientation inside above them.
+const LEVELS: [[u16; 256]; 4] = {
+    let mut table = [[0; 256]; 4];
+    let mut start = 0;
+    while start < 4 {
+        let mut cell = 0;
+        while cell < 256 {
+            let (x, y) = (cell >> 4, cell & 15);
+            let (mut rank, mut state, mut bit) = (0u16, start, 4);
+            while bit > 0 {
+                bit -= 1;
+                let (quarter, inside) = LEVEL[state][(x >> bit & 1) << 1 | (y >> bit & 1)];
+                rank = rank << 2 | quarter as u16;
+                state = inside as usize;
+            }
+            table[start][cell] = (state as u16) << 8 | rank;
+            cell += 1;
+        }
+        start += 1;
+    }
+    table
+};
+
 /// Position of a cell on the Hilbert curve of order 16.
 fn hilbert(x: u16, y: u16) -> u32 {
-    // Quadrant (x bit, y bit) to (rank on the curve, orientation inside), for the four orientations of the curve.
-    const RANK: [[u8; 4]; 4] = [[0, 1, 3, 2], [0, 3, 1, 2], [2, 3, 1, 0], [2, 1, 3, 0]];
-    const INSIDE: [[u8; 4]; 4] = [[1, 0, 3, 0], [0, 2, 1, 1], [2, 1, 2, 3], [3, 3, 0, 2]];
-    let (mut key, mut state) = (0u32, 0usize);
-    for bit in (0..16).rev() {
-        let quadrant = usize::from(x >> bit & 1) << 1 | usize::from(y >> bit & 1);
-        key = key << 2 | u32::from(RANK[state][quadrant]);
-        state = usize::from(INSIDE[state][quadrant]);
+    let (mut key, mut state) = (0, 0);
+    for shift in [12, 8, 4, 0] {
+        let entry = LEVELS[state][usize::from((x >> shift & 15) << 4 | (y >> shift & 15))];
+        key = key << 8 | u32::from(entry & 255);
+        state = usize::from(entry >> 8) & 3;
     }
     key
 }

@@ -1,8 +1,7 @@
 //! The triangulation against its definition, and against itself after detours.
 
-use super::test_kernel::TestKernel as K;
 use super::*;
-use crate::arith::Kernel;
+use crate::arith::{FastKernel as K, Kernel};
 use crate::model::{Fill, Point2, Sign, Triangle};
 use proptest::prelude::*;
 
@@ -190,17 +189,17 @@ fn labelled(m: &Cdt) -> Vec<(VertexId, VertexId, SegmentId)> {
     all
 }
 
-/// Everything there is to know.
-fn image(
-    m: &Cdt,
-) -> (
+/// Everything there is to know: slots, labels, hints, free slots, vertices, clock.
+type Image = (
     Vec<super::store::Slot>,
     Vec<[Option<SegmentId>; 3]>,
     Vec<u32>,
     Vec<u32>,
     usize,
     u32,
-) {
+);
+
+fn image(m: &Cdt) -> Image {
     let labels = (0..m.slots.len() as u32)
         .map(|t| m.edges(TriId(t)).map(|e| m.segment(e)))
         .collect();
@@ -674,5 +673,190 @@ proptest! {
         validate(&m);
         m.validate_hull().unwrap();
         prop_assert_eq!(triples(&m), definition(&points));
+    }
+}
+
+/// No vertex in conflict with a triangle is seen from its centroid. Coordinates are multiples of 3, so the centroid is exact.
+#[test]
+fn no_vertex_in_conflict_is_seen() {
+    let mut hidden = 0;
+    for seed in 0..300 {
+        let mut draw = Draw(seed);
+        let mut points: Vec<Point2> = Vec::new();
+        while points.len() < 25 {
+            let p = Point2::new(f64::from(draw.below(24)), f64::from(draw.below(24))) * 3.0;
+            if !points.contains(&p) {
+                points.push(p);
+            }
+        }
+        let segments = segments_among(&points, 12, &mut draw);
+        let m = built(&points, &segments).unwrap();
+        for t in m.triangles() {
+            let corners = m.corners(t);
+            let center = (corners[0] + corners[1] + corners[2]) / 3.0;
+            for &q in points.iter().filter(|q| !corners.contains(q)) {
+                if !K::in_conflict(corners, q) {
+                    continue;
+                }
+                let ends = |s: &[VertexId; 2]| s.map(|v| points[v.index()]);
+                let crossed = segments.iter().any(|s| {
+                    let [a, b] = ends(s);
+                    let apart = K::orient2d(a, b, center) == K::orient2d(a, b, q).reversed();
+                    let [at_a, at_b] = [a, b].map(|p| K::orient2d(center, q, p));
+                    // Seen past an end is seen; q itself may be an end.
+                    apart
+                        && K::orient2d(a, b, q) != Sign::Zero
+                        && at_a == at_b.reversed()
+                        && at_a != Sign::Zero
+                });
+                let through_vertex = points
+                    .iter()
+                    .any(|&p| p != q && K::orient2d(center, q, p) == Sign::Zero);
+                assert!(
+                    crossed || through_vertex,
+                    "seed {seed}: {corners:?} and {q}"
+                );
+                hidden += 1;
+            }
+        }
+    }
+    assert!(hidden > 500);
+}
+
+#[test]
+fn validators_reject_what_is_wrong() {
+    let mut draw = Draw(7);
+    let points = family(0, 40, &mut draw);
+    let segments = segments_among(&points, 15, &mut draw);
+    let good = built(&points, &segments).unwrap();
+    let inner = |m: &Cdt, constrained: bool| {
+        let mut edges = m.triangles().flat_map(|t| m.edges(t));
+        edges
+            .find(|&e| m.twin(e).is_some() && m.is_constrained(e) == constrained)
+            .unwrap()
+    };
+    let broken = |damage: &dyn Fn(&mut Cdt)| {
+        let mut m = good.clone();
+        damage(&mut m);
+        m
+    };
+    let links = |m: &Cdt| m.validate_links().unwrap_err();
+    let plain = inner(&good, false);
+    let fixed = inner(&good, true);
+    let slot = |e: HalfEdge| ((e.0 >> 2) as usize, (e.0 & 3) as usize);
+
+    let m =
+        broken(&|m| m.slots[slot(plain).0].link[slot(plain).1] = super::store::Link::to(plain.0));
+    assert!(matches!(links(&m), Violation::Link(..)));
+    let m = broken(&|m| m.slots[slot(plain).0].link[slot(plain).1] = m.link(plain.0).constrained());
+    assert!(matches!(links(&m), Violation::Link(..)));
+    let m = broken(&|m| m.labels[slot(fixed).0][slot(fixed).1] += 1);
+    assert!(matches!(links(&m), Violation::Link(..)));
+    let m = broken(&|m| m.hints[3] = m.hints[4]);
+    assert_eq!(links(&m), Violation::Hint(VertexId(3)));
+    let m = broken(&|m| m.slots[0].v[1] = m.slots[0].v[0]);
+    assert!(matches!(links(&m), Violation::Vertices(_)));
+    let m = broken(&|m| m.free.push(0));
+    assert!(matches!(links(&m), Violation::Free(_)));
+
+    let m = broken(&|m| m.points.swap(0, 1));
+    m.validate_links().unwrap();
+    assert!(matches!(
+        m.validate_orientation(),
+        Err(Violation::Orientation(_))
+    ));
+
+    // A segment forgotten shows unless its edge is Delaunay anyway: some is not.
+    let mut shown = 0;
+    for e in good
+        .triangles()
+        .flat_map(|t| good.edges(t))
+        .filter(|&e| good.is_constrained(e))
+    {
+        let Some(f) = good.twin(e) else { continue };
+        let m = broken(&|m| {
+            m.slots[slot(e).0].link[slot(e).1] = super::store::Link::to(f.0);
+            m.slots[slot(f).0].link[slot(f).1] = super::store::Link::to(e.0);
+        });
+        m.validate_links().unwrap();
+        shown += usize::from(matches!(
+            m.validate_delaunay(),
+            Err(Violation::Delaunay(..))
+        ));
+    }
+    assert!(shown > 0);
+
+    good.validate_hull().unwrap();
+    let mut m = Cdt::delaunay(points.clone()).unwrap();
+    let hull = m
+        .triangles()
+        .flat_map(|t| m.edges(t))
+        .find(|&e| m.twin(e).is_none())
+        .unwrap();
+    let t = m.triangle_of(hull);
+    for e in m.edges(t) {
+        if let Some(f) = m.twin(e) {
+            m.slots[slot(f).0].link[slot(f).1] = super::store::Link::BORDER;
+            let (u, v) = (m.origin(e).index(), m.origin(f).index());
+            m.hints[u] = next_of(f);
+            m.hints[v] = f.0;
+        }
+    }
+    m.release_slot(t.0);
+    assert!(matches!(m.validate_hull(), Err(Violation::Hull(_))));
+}
+
+fn next_of(e: HalfEdge) -> u32 {
+    super::store::next(e.0)
+}
+
+#[test]
+fn large_ones_are_valid() {
+    for kind in [0u64, 4] {
+        let mut draw = Draw(kind);
+        let n = 100_000;
+        let spread = |draw: &mut Draw| match kind {
+            0 => Point2::new(draw.unit(), draw.unit()),
+            _ => {
+                let c = Point2::new(f64::from(draw.below(30)), f64::from(draw.below(30))) / 32.0;
+                c + Point2::new(draw.unit(), draw.unit()) * draw.unit() * 1e-3
+            }
+        };
+        let points: Vec<Point2> = (0..n).map(|_| spread(&mut draw)).collect();
+        let coarse = Cdt::delaunay(points[..n / 3].to_vec()).unwrap();
+        let edges = coarse.triangles().flat_map(|t| {
+            coarse
+                .edges(t)
+                .map(|e| [coarse.origin(e), coarse.destination(e)])
+        });
+        let segments: Vec<_> = edges.filter(|[u, v]| u < v).step_by(2).collect();
+        let m = built(&points, &segments).unwrap();
+        validate(&m);
+        m.validate_hull().unwrap();
+        assert_eq!(labelled(&m).len(), segments.len());
+    }
+}
+
+/// A segment through a strip of n triangles, the polygons on its sides convex, concave and ragged. (With ears clipped in
+/// a fixed order the first takes minutes.)
+#[test]
+fn long_segments_do_not_take_quadratic_time() {
+    let n = 100_000_u32;
+    for shape in 0..4u64 {
+        let mut draw = Draw(shape);
+        let mut points = vec![Point2::new(-1.0, 0.0), Point2::new(1.0, 0.0)];
+        for i in 1..n {
+            let x = (2.0 * f64::from(i) / f64::from(n)) - 1.0;
+            let y = match shape {
+                0 => (1.0 - x * x) / 64.0,
+                1 => 1e-3 + x * x / 64.0,
+                2 => 1e-4 * (1.0 + draw.unit()),
+                _ => (1.0 - x * x).sqrt(),
+            };
+            points.extend([Point2::new(x, y), Point2::new(x, -y)]);
+        }
+        let m = built(&points, &[[VertexId(0), VertexId(1)]]).unwrap();
+        validate(&m);
+        m.validate_hull().unwrap();
     }
 }
