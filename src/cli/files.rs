@@ -1,6 +1,7 @@
 //! Files: read whole; written whole or not at all, several together.
 
 use super::Failure;
+use crate::io::{self, ForeignMesh, Format};
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -22,6 +23,22 @@ pub fn extension(path: &Path) -> String {
     path.extension()
         .map(|e| e.to_string_lossy().to_lowercase())
         .unwrap_or_default()
+}
+
+/// Reads files of the same name in other formats, where they exist.
+pub fn companion(path: &Path) -> impl FnMut(Format) -> Option<Vec<u8>> {
+    move |format| fs::read(path.with_extension(format.extension())).ok()
+}
+
+/// Reads a mesh by its extension.
+pub fn read_mesh(path: &Path) -> Result<ForeignMesh, Failure> {
+    let known = || Failure::at(path, "meshes are read from .vtu, .msh, .off, .node, .ele");
+    let format = Format::of(path)
+        .filter(|f| f.reads_mesh())
+        .ok_or_else(known)?;
+    let bytes = read(path)?;
+    let mesh = io::read_mesh(format, &bytes, companion(path)).ok_or_else(known)?;
+    mesh.map_err(|e| Failure::at(path, e))
 }
 
 /// Files on their way. Each is written beside its place under another name; `commit` renames all. Dropped before that, they are gone.

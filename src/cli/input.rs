@@ -1,16 +1,13 @@
 //! Inputs: read by extension, examined, and what is wrong with them told.
 
-use super::files::{extension, read};
+use super::files::{companion, read};
 use super::{Failure, data, talk};
 use crate::arith::FastKernel;
 use crate::domain::{Finding, Prepared, Severity, prepare};
-use crate::io::{self, Input, Note, NoteKind, ReadError};
+use crate::io::{self, Format, Input, Note, NoteKind, ReadError};
 use crate::model::{Fill, Lines};
 use serde_json::{Value, json};
 use std::path::Path;
-
-/// The extensions that `read_input` knows, for messages.
-pub const INPUTS: &str = ".poly, .node, .wkt, .geojson, .json";
 
 /// One thing found in an input, by the reader or by the examination of what was read.
 #[derive(Debug)]
@@ -64,26 +61,12 @@ pub fn load(path: &Path, fill: Option<Fill>) -> Result<Loaded, Failure> {
 
 /// Reads an input by its extension; the inner error is a fault of its content.
 pub fn read_input(path: &Path) -> Result<Result<Input, ReadError>, Failure> {
+    let known = || Failure::at(path, "inputs are .poly, .node, .wkt, .geojson");
+    let format = Format::of(path)
+        .filter(|f| f.reads_pslg())
+        .ok_or_else(known)?;
     let bytes = read(path)?;
-    Ok(match extension(path).as_str() {
-        "poly" => {
-            let node = if io::poly_wants_node(&bytes) {
-                Some(read(&path.with_extension("node"))?)
-            } else {
-                None
-            };
-            io::parse_poly(&bytes, node.as_deref())
-        }
-        "node" => io::parse_node(&bytes),
-        "wkt" => io::parse_wkt(&bytes),
-        "json" | "geojson" => io::parse_geojson(&bytes),
-        other => {
-            return Err(Failure::at(
-                path,
-                format_args!("inputs end in {INPUTS}, not in .{other}"),
-            ));
-        }
-    })
+    io::read_pslg(format, &bytes, companion(path)).ok_or_else(known)
 }
 
 impl Loaded {

@@ -4,6 +4,7 @@
 //! or an interrupt stopped the run; 101 a bug. Files are written whole or not at all (`files`).
 
 mod args;
+mod check;
 mod convert;
 mod diff;
 mod doctor;
@@ -76,6 +77,7 @@ fn dispatch(command: &Command) -> Answer {
     match command {
         Command::Mesh(args) => mesh::run(args),
         Command::Triangulate(args) => mesh::triangulate(args),
+        Command::Check(args) => check::run(args),
         Command::Doctor(args) => doctor::run(args),
         Command::Diff(args) => diff::run(args),
         Command::Convert(args) => convert::run(args),

@@ -1,61 +1,54 @@
 //! Meshes as files, by extension. What belongs together is written together.
 
 use super::Failure;
-use super::files::{Staged, extension};
-use crate::io::write;
+use super::files::Staged;
+use crate::io::{Format, write_mesh};
 use crate::model::{Mesh2, Pslg};
 use std::path::{Path, PathBuf};
 
-/// The extensions that `stage` knows, for messages.
-pub const OUTPUTS: &str = ".vtu, .node, .ele, .poly, .edge";
+/// The files of a mesh under one name: more than one where the format needs them. Errors: no mesh is written under such a name.
+fn files(path: &Path) -> Result<&'static [Format], Failure> {
+    match Format::of(path).map_or(&[][..], Format::files_of_mesh) {
+        [] => Err(Failure::at(
+            path,
+            "meshes are written to .vtu, .msh, .off, .svg, .node, .ele, .poly, .edge",
+        )),
+        files => Ok(files),
+    }
+}
 
 /// Refuses names that `stage` would refuse; to be asked before a long run.
 pub fn check_names(paths: &[PathBuf]) -> Result<(), Failure> {
-    paths
-        .iter()
-        .try_for_each(|path| match extension(path).as_str() {
-            "node" | "ele" | "poly" | "edge" | "vtu" => Ok(()),
-            other => Err(Failure::at(
-                path,
-                format_args!("meshes end in {OUTPUTS}, not in .{other}"),
-            )),
-        })
+    paths.iter().try_for_each(|path| files(path).map(drop))
 }
 
-/// Writes a mesh under each name. Of Triangle's files, `.node` and `.ele` are written with any of them.
+/// Writes a mesh under each name, and says which files that are.
 pub fn stage(
     paths: &[PathBuf],
     mesh: &Mesh2,
     domain: Option<&Pslg>,
     staged: &mut Staged,
 ) -> Result<Vec<PathBuf>, Failure> {
-    let mut places: Vec<PathBuf> = Vec::new();
+    let mut places: Vec<(PathBuf, Format)> = Vec::new();
     for path in paths {
-        if matches!(extension(path).as_str(), "node" | "ele" | "poly" | "edge") {
-            places.extend([path.with_extension("node"), path.with_extension("ele")]);
+        for &format in files(path)? {
+            let own = Format::of(path) == Some(format);
+            places.push((
+                if own {
+                    path.clone()
+                } else {
+                    path.with_extension(format.extension())
+                },
+                format,
+            ));
         }
-        places.push(path.clone());
     }
     places.sort();
     places.dedup();
-    for place in &places {
-        staged.write(place, &bytes(place, mesh, domain)?)?;
+    for (place, format) in &places {
+        let bytes = write_mesh(mesh, *format, domain)
+            .ok_or_else(|| Failure::at(place, "no format of meshes"))?;
+        staged.write(place, &bytes)?;
     }
-    Ok(places)
-}
-
-fn bytes(path: &Path, mesh: &Mesh2, domain: Option<&Pslg>) -> Result<Vec<u8>, Failure> {
-    Ok(match extension(path).as_str() {
-        "node" => write::triangle::node(mesh),
-        "ele" => write::triangle::ele(mesh),
-        "poly" => write::triangle::poly(mesh, domain),
-        "edge" => write::triangle::edge(mesh),
-        "vtu" => write::vtu(mesh),
-        other => {
-            return Err(Failure::at(
-                path,
-                format_args!("meshes end in {OUTPUTS}, not in .{other}"),
-            ));
-        }
-    })
+    Ok(places.into_iter().map(|(place, _)| place).collect())
 }

@@ -1,0 +1,202 @@
+//! `verify`: the verdict of the checker on a trace, and the digests.
+
+use super::args::VerifyArgs;
+use super::files::open;
+use super::input::load;
+use super::{Answer, Failure, Status, data, talk};
+use crate::check::spacing::{Spacing, Violation};
+use crate::check::{Checker, Options, Verdict};
+use crate::model::{Fill, Pslg, Segment};
+use crate::trace::{DecodeError, Header, Reader, Record};
+use serde_json::json;
+use std::time::Instant;
+
+/// Why a trace is rejected.
+struct Rejection {
+    event: String,
+    rule: String,
+    expected: String,
+    found: String,
+}
+
+/// Verifies a trace. Exit code 1 if it is rejected, or under `--strict` a fact is left unchecked.
+pub fn run(args: &VerifyArgs) -> Answer {
+    let begun = Instant::now();
+    let input = match &args.input {
+        None => None,
+        Some(path) => {
+            let loaded = load(path, None)?;
+            if loaded.refused() {
+                loaded.tell_refusal(path, args.json)?;
+                return Ok(Status::Refused);
+            }
+            Some(loaded.prepared.pslg)
+        }
+    };
+    let mut reader = Reader::new(open(&args.trace)?);
+    let mut judge = Judge {
+        checker: Checker::new(Options { strict: args.strict, digests: !args.no_digest }),
+        spacing: args.spacing.then(Spacing::new),
+        input,
+        stated: Pslg::default(),
+    };
+    let mut rejection = None;
+    while let Some(record) = reader.next() {
+        let judged = match record {
+            Ok(record) => judge.record(&record).and_then(|()| match &record {
+                Record::End(end) if !args.no_digest && end.trace != reader.digest() => Err(Rejection {
+                    event: "end".into(),
+                    rule: "Digest".into(),
+                    expected: reader.digest(),
+                    found: end.trace.clone(),
+                }),
+                _ => Ok(()),
+            }),
+            Err(DecodeError::Io(e)) => return Err(Failure::at(&args.trace, e)),
+            Err(e) => Err(undecodable(reader.events(), &e)),
+        };
+        if let Err(r) = judged {
+            rejection = Some(r);
+            break;
+        }
+    }
+    let seconds = begun.elapsed().as_secs_f64();
+    match rejection {
+        Some(r) => reject(args, &r, seconds),
+        None => judge.finish(args, seconds),
+    }
+}
+
+/// What looks at each record.
+struct Judge {
+    checker: Checker,
+    spacing: Option<Spacing>,
+    input: Option<Pslg>,
+    /// The domain that the trace states, kept only to be compared with an input.
+    stated: Pslg,
+}
+
+impl Judge {
+    fn record(&mut self, record: &Record) -> Result<(), Rejection> {
+        if self.input.is_some() {
+            self.compare(record)?;
+        }
+        self.checker.push(record).map_err(|r| Rejection {
+            event: r.event.to_string(),
+            rule: r.rule.to_string(),
+            expected: r.expected.clone(),
+            found: r.found.clone(),
+        })?;
+        match &mut self.spacing {
+            Some(spacing) => spacing.record(record).map_err(violation),
+            None => Ok(()),
+        }
+    }
+
+    /// Gathers the domain and compares it with the input where `start` ends it.
+    fn compare(&mut self, record: &Record) -> Result<(), Rejection> {
+        match record {
+            Record::Header(Header { fill, .. }) => self.stated.fill = *fill,
+            Record::Vertex { at, marker, attributes } => {
+                self.stated.points.push(*at);
+                self.stated.point_markers.extend(marker);
+                self.stated.attributes.extend(attributes);
+            }
+            Record::Segment(segment) => self.stated.segments.push(*segment),
+            Record::Hole(hole) => self.stated.holes.push(*hole),
+            Record::Region(region) => self.stated.regions.push(*region),
+            Record::Start { .. } => {
+                if let Some(input) = self.input.take()
+                    && let Some(what) = difference(&input, &self.stated)
+                {
+                    return Err(Rejection {
+                        event: "input".into(),
+                        rule: "Input".into(),
+                        expected: format!("the {what} of the input"),
+                        found: "others".into(),
+                    });
+                }
+            }
+            Record::Triangle(_) | Record::Event(_) | Record::End(_) => {}
+        }
+        Ok(())
+    }
+
+    fn finish(self, args: &VerifyArgs, seconds: f64) -> Answer {
+        let (events, unchecked) = match self.checker.finish() {
+            Verdict::Accepted { events, unchecked } => (events, unchecked),
+            Verdict::Rejected(r) => {
+                let (event, rule) = (r.event.to_string(), r.rule.to_string());
+                return reject(args, &Rejection { event, rule, expected: r.expected, found: r.found }, seconds);
+            }
+        };
+        if args.json {
+            let unchecked: Vec<_> =
+                unchecked.iter().map(|u| json!({"rule": u.rule.to_string(), "reason": u.reason})).collect();
+            data(json!({"verdict": "accepted", "events": events, "unchecked": unchecked, "seconds": seconds}))?;
+        } else {
+            data(format_args!("accepted: {events} events"))?;
+            for u in &unchecked {
+                data(format_args!("unchecked: {}: {}", u.rule, u.reason))?;
+            }
+            talk(format_args!("time      {seconds:.3} s"));
+        }
+        Ok(if args.strict && !unchecked.is_empty() { Status::No } else { Status::Well })
+    }
+}
+
+/// What of the input the trace does not state, in one word. Under `convex` edges of the hull may follow the segments; the fill
+/// itself is an option of `mesh`, not of the input.
+fn difference(input: &Pslg, stated: &Pslg) -> Option<&'static str> {
+    let bits = |list: &[crate::model::Point2]| -> Vec<[u64; 2]> { list.iter().map(|p| p.to_array().map(f64::to_bits)).collect() };
+    let convex = stated.fill == Fill::Convex;
+    let own: &[Segment] = match stated.segments.get(..input.segments.len()) {
+        Some(own) if convex => own,
+        _ => &stated.segments,
+    };
+    // A parity input meshed whole keeps its segments, not what they toggle.
+    let plain = |s: &Segment| (s.ends, s.marker, s.toggles && !convex);
+    let equal_segments = own.len() == input.segments.len() && own.iter().map(plain).eq(input.segments.iter().map(plain));
+    let checks = [
+        ("vertices", bits(&input.points) == bits(&stated.points)),
+        ("markers", input.point_markers == stated.point_markers),
+        ("attributes", input.attributes == stated.attributes),
+        ("segments", equal_segments),
+        ("holes", bits(&input.holes) == bits(&stated.holes)),
+        ("regions", input.regions == stated.regions),
+        ("fill", convex || input.fill == stated.fill),
+    ];
+    checks.into_iter().find(|(_, equal)| !equal).map(|(what, _)| what)
+}
+
+fn undecodable(events: u64, e: &DecodeError) -> Rejection {
+    let rule = match e {
+        DecodeError::Truncated(_) => "Truncated",
+        _ => "Format",
+    };
+    Rejection {
+        event: format!("event {events}"),
+        rule: rule.into(),
+        expected: "a record in canonical form".into(),
+        found: e.to_string(),
+    }
+}
+
+fn violation(v: Violation) -> Rejection {
+    let event = v.event.map_or("end".into(), |i| format!("event {i}"));
+    Rejection { event, rule: v.row.to_string(), expected: v.expected, found: v.found }
+}
+
+fn reject(args: &VerifyArgs, r: &Rejection, seconds: f64) -> Answer {
+    if args.json {
+        let number = r.event.strip_prefix("event ").and_then(|n| n.parse::<u64>().ok());
+        let event = number.map_or(json!(r.event), |n| json!(n));
+        data(json!({
+            "verdict": "rejected", "event": event, "rule": r.rule, "expected": r.expected, "found": r.found,
+            "events": number, "unchecked": [], "seconds": seconds,
+        }))?;
+    } else {
+        data(format_args!("rejected: {}: rule {}: expected {}, found {}", r.event, r.rule, r.expected, r.found))?;
+    }
+    Ok(Status::No)
+}
