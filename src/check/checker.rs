@@ -9,7 +9,7 @@ use super::sight::Search;
 use super::start::{self, Domain};
 use super::value::power_of_two;
 use super::verdict::{Checked, Place, Rejection, Rule, Unchecked, Verdict, broken, ensure};
-use crate::model::{Choice, DiskChoice, GcdrParameters, Level, Point2, Region};
+use crate::model::{Choice, DiskChoice, GcdrParameters, Level, Point2, Region, Segment};
 use crate::trace::{Algorithm, End, Event, Header, Record, SkipReason};
 
 /// What to check.
@@ -39,6 +39,15 @@ pub fn verify<'a>(records: impl IntoIterator<Item = &'a Record>, options: Option
         }
     }
     checker.finish()
+}
+
+/// What a checker knows of the mesh at a time.
+pub(super) struct State<'a> {
+    pub(super) mesh: &'a Complex,
+    /// Input units = places times 2^`exponent`.
+    pub(super) exponent: i32,
+    pub(super) segments: &'a [Segment],
+    pub(super) regions: &'a [Region],
 }
 
 /// Takes a trace record by record. Memory: the mesh.
@@ -119,6 +128,25 @@ impl Checker {
             }
         }
         self.rejection.as_ref().map_or(Ok(()), Err)
+    }
+
+    /// What the replay has come to, for `snapshot`.
+    pub(super) fn state(&self) -> State<'_> {
+        let (mesh, segments) = match &self.replay {
+            Some(replay) => (&replay.mesh, &replay.segments),
+            None => (&self.mesh, &self.domain.segments),
+        };
+        State {
+            mesh,
+            exponent: self.scale.exponent,
+            segments,
+            regions: &self.domain.regions,
+        }
+    }
+
+    /// The sectors of the input inside the region.
+    pub(super) fn sectors(&self) -> &[Sector] {
+        &self.sectors
     }
 
     /// The verdict. A trace without its end is rejected.

@@ -93,7 +93,7 @@ pub fn check_counts(end: &End, mesh: &Complex, tally: Counts) -> Checked {
 }
 
 /// Every constrained edge of the region, once: its ends, the smaller first, and its segment.
-fn subsegments(mesh: &Complex) -> Vec<[u32; 3]> {
+pub(super) fn subsegments(mesh: &Complex) -> Vec<[u32; 3]> {
     let mut edges = Vec::new();
     for t in mesh.triangles() {
         for e in 4 * t..4 * t + 3 {

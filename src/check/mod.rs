@@ -27,6 +27,7 @@ mod replay;
 mod rows;
 pub mod scalar;
 mod sight;
+mod snapshot;
 pub mod spacing;
 mod start;
 mod value;

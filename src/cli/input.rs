@@ -5,7 +5,7 @@ use super::{Failure, data, talk};
 use crate::arith::FastKernel;
 use crate::domain::{Finding, Prepared, Severity, prepare};
 use crate::io::{self, Format, Input, Note, NoteKind, ReadError};
-use crate::model::{Fill, Lines};
+use crate::model::Fill;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -25,8 +25,6 @@ pub struct Entry {
 pub struct Loaded {
     /// What is to be meshed, with the findings of its examination.
     pub prepared: Prepared,
-    /// Where the elements of the file stood.
-    pub lines: Lines,
     /// What was found, errors first.
     pub entries: Vec<Entry>,
 }
@@ -37,10 +35,9 @@ pub fn load(path: &Path, fill: Option<Fill>) -> Result<Loaded, Failure> {
     let mut input = match read_input(path)? {
         Ok(input) => input,
         Err(e) => {
-            let (prepared, lines) = (Prepared::default(), Lines::default());
+            let prepared = Prepared::default();
             return Ok(Loaded {
                 prepared,
-                lines,
                 entries: vec![syntax(&e)],
             });
         }
@@ -52,11 +49,7 @@ pub fn load(path: &Path, fill: Option<Fill>) -> Result<Loaded, Failure> {
     let notes = input.notes.iter().map(note);
     let mut entries: Vec<Entry> = notes.chain(prepared.findings.iter().map(finding)).collect();
     entries.sort_by_key(|e| e.severity);
-    Ok(Loaded {
-        prepared,
-        lines: input.lines,
-        entries,
-    })
+    Ok(Loaded { prepared, entries })
 }
 
 /// Reads an input by its extension; the inner error is a fault of its content.

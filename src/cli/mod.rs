@@ -13,8 +13,10 @@ mod input;
 mod mesh;
 mod outputs;
 mod parameters;
+mod replay;
 mod report;
 mod reproduce;
+mod verify;
 mod watch;
 
 use args::{Arguments, Command};
@@ -77,12 +79,13 @@ fn dispatch(command: &Command) -> Answer {
     match command {
         Command::Mesh(args) => mesh::run(args),
         Command::Triangulate(args) => mesh::triangulate(args),
+        Command::Verify(args) => verify::run(args),
+        Command::Replay(args) => replay::run(args),
         Command::Check(args) => check::run(args),
         Command::Doctor(args) => doctor::run(args),
         Command::Diff(args) => diff::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Reproduce(args) => reproduce::run(args),
-        _ => Err(Failure::new("not wired")),
     }
 }
 
