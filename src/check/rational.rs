@@ -90,9 +90,9 @@ impl Rational {
 
     #[cfg(not(feature = "exact"))]
     fn positive_root(&self) -> (Self, Self) {
-        use dashu_int::ops::{BitTest, SquareRootRem};
+        use dashu_int::ops::{BitTest, SquareRootRem, UnsignedAbs};
         use dashu_int::{IBig, UBig};
-        let product = self.0.numerator().unsigned_abs() * self.0.denominator();
+        let product = self.0.numerator().clone().unsigned_abs() * self.0.denominator();
         let bits = u32::try_from(product.bit_len() / 2).unwrap_or(u32::MAX);
         let shift = ROOT_BITS.saturating_sub(bits) as usize;
         let (root, rest) = (product << (2 * shift)).sqrt_rem();
