@@ -29,9 +29,13 @@ enum Family {
     FarAway,
     /// Down to 2^-142, the least nonzero coordinate.
     Tiny,
+    /// From 2^-142 to 2^200 in one case.
+    Extremes,
+    /// Near ties, all scaled alike: the ends of the range with every bit in use, where a stage would lie by underflow.
+    ScaledNearDegenerate,
 }
 
-const FAMILIES: [Family; 10] = [
+const FAMILIES: [Family; 12] = [
     Family::Random,
     Family::NearDegenerate,
     Family::SmallGrid,
@@ -42,6 +46,8 @@ const FAMILIES: [Family; 10] = [
     Family::WildScales,
     Family::FarAway,
     Family::Tiny,
+    Family::Extremes,
+    Family::ScaledNearDegenerate,
 ];
 
 /// Draws of one case.
@@ -102,6 +108,14 @@ impl Draws {
                 self.unit() * self.power_of_two(-40, 40),
                 self.unit() * self.power_of_two(-40, 40),
             ],
+            Family::Extremes => [
+                self.unit() * self.power_of_two(-141, 200),
+                self.unit() * self.power_of_two(-141, 200),
+            ],
+            Family::ScaledNearDegenerate => {
+                let p = self.point(Family::NearDegenerate, frame);
+                [p.x * frame.scale, p.y * frame.scale]
+            }
             Family::FarAway => {
                 let far = if self.below(3) == 0 {
                     self.power_of_two(0, 200)
@@ -118,7 +132,7 @@ impl Draws {
         Point2::new(round::flushed(x) + 0.0, round::flushed(y) + 0.0)
     }
 
-    /// One of the integer points of the circle of radius 65 in the frame; every second frame uses a line instead if noisy.
+    /// One of the integer points of the circle of radius 65 in the frame; every second noisy frame has a line instead.
     fn on_circle(&mut self, frame: &Frame) -> [f64; 2] {
         const QUARTER: [(f64, f64); 5] = [
             (65.0, 0.0),
@@ -148,6 +162,7 @@ struct Frame {
     size: f64,
     noise: f64,
     flat: bool,
+    scale: f64,
 }
 
 impl Frame {
@@ -158,7 +173,11 @@ impl Frame {
             step: Point2::new(integer(d), integer(d)),
             size: d.power_of_two(-12, -7),
             noise: d.power_of_two(-55, -10),
-            flat: family == Family::NearDegenerate && d.below(2) == 0,
+            flat: matches!(
+                family,
+                Family::NearDegenerate | Family::ScaledNearDegenerate
+            ) && d.below(2) == 0,
+            scale: d.power_of_two(-140, 199),
         }
     }
 }
