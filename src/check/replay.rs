@@ -14,7 +14,8 @@ use super::sight::{Aim, Arrival, Crossing, Search, walk};
 use super::value::power_of_two;
 use super::verdict::{Broken, Checked, Rule, broken, ensure};
 use crate::model::{
-    DeletionPolicy, GcdrParameters, Point2, Segment, SegmentId, SmallAngles, Triangle, VertexId,
+    Choice, DeletionPolicy, GcdrParameters, Point2, Segment, SegmentId, SmallAngles, Triangle,
+    VertexId,
 };
 use crate::trace::{Cause, Counts, Event, Shell, SkipReason, SplitKind, Why};
 
@@ -102,8 +103,8 @@ pub struct Replay {
     pub region_bounds: Vec<Option<f64>>,
     /// Input vertices that are an apex of shells.
     pub apexes: Vec<bool>,
-    /// Shell of each vertex.
-    pub shells: Vec<Option<Shell>>,
+    /// Rung of each vertex: its nominal distance, in input units, from the apex at an end of its segment.
+    pub rungs: Vec<Option<(u32, f64)>>,
     /// Splits of each input segment.
     pub splits: Vec<u32>,
     /// Insertions by type, deletions.
@@ -133,7 +134,7 @@ impl Replay {
         segments: Vec<Segment>,
     ) -> Replay {
         Replay {
-            shells: vec![None; mesh.vertices.len()],
+            rungs: vec![None; mesh.vertices.len()],
             apexes: vec![false; mesh.vertices.len()],
             splits: vec![0; segments.len()],
             mesh,
@@ -361,13 +362,9 @@ impl Replay {
         let k = shortest_edge(self.mesh.places(t), self.mesh.corners(t)) as u32;
         let e = 4 * t + k;
         let (x, y) = (self.mesh.origin(e), self.mesh.target(e));
-        let shell = |v: u32| {
-            self.shells[v as usize]
-                .filter(|s| s.apex.0 == apex)
-                .map(|s| s.k)
-        };
+        let rung = |v: u32| self.rungs[v as usize].filter(|r| r.0 == apex);
         let on = |v: u32| self.mesh.vertices[v as usize].segment();
-        if let (Some(k), Some(l), Some(a), Some(b)) = (shell(x), shell(y), on(x), on(y)) {
+        if let (Some(k), Some(l), Some(a), Some(b)) = (rung(x), rung(y), on(x), on(y)) {
             if k == l && a != b && self.angle_below_60(apex, a, b) {
                 return true;
             }
@@ -415,7 +412,7 @@ impl Replay {
         self.compare_flood(destroyed)?;
         self.check_star(p, 2)?;
         let v = self.mesh.add_vertex(p, Kind::Free);
-        self.shells.push(None);
+        self.rungs.push(None);
         self.clear_cavity();
         let count = self.rim.len();
         self.fan(v, 0..count, region);
@@ -508,6 +505,7 @@ impl Replay {
             )
         })?;
         self.check_shell(&split, shell)?;
+        let rung = self.rung(&split, shell);
         let slack = self.regions.interval(split.kind, [u, v], split.p);
         rows::before_split(self, &split)?;
         self.check_kind_and_removals(&split)?;
@@ -517,13 +515,31 @@ impl Replay {
             self.check_parent(&split, parent.0)?;
         }
         let p = self.split_edge(&split, destroyed)?;
-        self.shells.push(shell);
+        self.rungs.push(rung);
         self.splits[segment as usize] += 1;
         match split.kind {
             SplitKind::B => self.tally.type_b += 1,
             SplitKind::C { .. } => self.tally.type_c += 1,
         }
         rows::after_split(self, &split, p, facts_of_t, slack)
+    }
+
+    /// The rung of a split point: 2^k on shell k, halfway between rungs of one apex for a midpoint, else none.
+    fn rung(&self, split: &Split, shell: Option<Shell>) -> Option<(u32, f64)> {
+        if let Some(Shell { apex, k }) = shell {
+            // k was checked to be an exponent of lengths in the input, which are normal f64s
+            return Some((
+                apex.0,
+                f64::from_bits(((k + 1023).clamp(1, 2046) as u64) << 52),
+            ));
+        }
+        let choice = match split.kind {
+            SplitKind::B => self.parameters.choice_b,
+            SplitKind::C { .. } => self.parameters.choice_c,
+        };
+        let [a, b] = split.ends.map(|v| self.rungs[v as usize]);
+        let ((apex, c), (other, d)) = (a?, b?);
+        (choice == Choice::Center && apex == other).then_some((apex, (c + d) / 2.0))
     }
 
     /// A shell names the one end of s that is an apex, and its exponent: |s|/3 < 2^k <= 2|s|/3.
