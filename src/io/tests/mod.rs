@@ -2,6 +2,7 @@
 
 mod geometry;
 mod meshes;
+mod picture;
 mod triangle;
 
 use crate::io::ReadError;

@@ -6,9 +6,10 @@
 
 use super::super::angle::smallest_angle;
 use super::text;
-use crate::model::{Mesh2, Point2, VertexId, VertexKind};
+use crate::model::{Mesh2, Point2, SegmentId, VertexKind};
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::mem::discriminant;
 
 /// Width of the drawing in user units.
 const WIDTH: f64 = 1000.0;
@@ -39,7 +40,6 @@ pub fn svg(mesh: &Mesh2) -> Vec<u8> {
         .iter()
         .map(|&t| smallest_angle(mesh.corners(t)))
         .collect();
-    let edge = mean_edge(mesh, &frame);
     let mut out = Vec::new();
     let height = 2.0 * MARGIN + frame.height + LEGEND;
     text(
@@ -58,9 +58,9 @@ pub fn svg(mesh: &Mesh2) -> Vec<u8> {
         &mut out,
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
     );
-    triangles(&mut out, mesh, &frame, &angles, edge);
-    segments(&mut out, mesh, &frame, edge);
-    points(&mut out, mesh, &frame, edge);
+    triangles(&mut out, mesh, &frame, &angles);
+    segments(&mut out, mesh, &frame);
+    points(&mut out, mesh, &frame);
     legend(&mut out, mesh, &angles, MARGIN + frame.height + 26.0);
     text(&mut out, "</svg>\n");
     out
@@ -137,19 +137,6 @@ impl std::fmt::Display for Short {
     }
 }
 
-/// Mean length of the drawn edges.
-fn mean_edge(mesh: &Mesh2, frame: &Frame) -> f64 {
-    let lengths = mesh.triangles.iter().flat_map(|&t| {
-        let [a, b, c] = mesh.corners(t).map(|p| frame.place(p));
-        [a.distance(b), b.distance(c), c.distance(a)]
-    });
-    if mesh.triangles.is_empty() {
-        50.0
-    } else {
-        lengths.sum::<f64>() / (3.0 * mesh.triangles.len() as f64)
-    }
-}
-
 /// The bin of an angle: whole degrees, 0 to 59.
 fn bin(angle: f64) -> usize {
     (angle as usize).min(59)
@@ -164,41 +151,50 @@ fn colour(bin: usize) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-fn triangles(out: &mut Vec<u8>, mesh: &Mesh2, frame: &Frame, angles: &[f64], edge: f64) {
-    let mut paths = vec![String::new(); 60];
+/// Widths of strokes; each element gets the widest one that suits its size, so that a graded mesh stays legible throughout.
+const STROKES: [f64; 6] = [0.08, 0.2, 0.4, 0.8, 1.4, 2.2];
+
+/// The index of the widest stroke up to a width.
+fn stroke(width: f64) -> usize {
+    STROKES.iter().rposition(|&s| s <= width).unwrap_or(0)
+}
+
+fn triangles(out: &mut Vec<u8>, mesh: &Mesh2, frame: &Frame, angles: &[f64]) {
+    let mut paths: BTreeMap<(usize, usize), String> = BTreeMap::new();
     for (&t, &angle) in mesh.triangles.iter().zip(angles) {
         let [a, b, c] = mesh.corners(t).map(|p| frame.place(p));
-        let path = &mut paths[bin(angle)];
+        let shortest = a.distance(b).min(b.distance(c)).min(c.distance(a));
+        let path = paths
+            .entry((stroke((0.03 * shortest).min(0.8)), bin(angle)))
+            .or_default();
         let corners = [a.x, a.y, b.x, b.y, c.x, c.y].map(|x| Short(x).to_string());
         // Writing to a string cannot fail.
         write!(path, "M{}z", corners.join(" ")).expect("a string takes all text");
     }
-    let width = Short((0.025 * edge).clamp(0.04, 0.8));
     text(
         out,
-        &format!(
-            "<g stroke=\"{INK}\" stroke-opacity=\".45\" stroke-width=\"{width}\" stroke-linejoin=\"round\">\n"
-        ),
+        &format!("<g stroke=\"{INK}\" stroke-opacity=\".5\" stroke-linejoin=\"round\">\n"),
     );
-    for (k, path) in paths
-        .iter()
-        .enumerate()
-        .filter(|(_, path)| !path.is_empty())
-    {
+    for ((width, bin), path) in paths {
         text(
             out,
-            &format!("<path fill=\"{}\" d=\"{path}\"/>\n", colour(k)),
+            &format!(
+                "<path fill=\"{}\" stroke-width=\"{}\" d=\"{path}\"/>\n",
+                colour(bin),
+                Short(STROKES[width])
+            ),
         );
     }
     text(out, "</g>\n");
 }
 
-fn segments(out: &mut Vec<u8>, mesh: &Mesh2, frame: &Frame, edge: f64) {
-    let mut path = String::new();
+fn segments(out: &mut Vec<u8>, mesh: &Mesh2, frame: &Frame) {
+    let mut paths: BTreeMap<usize, String> = BTreeMap::new();
     for e in &mesh.edges {
-        let [a, b] = e
-            .ends
-            .map(|VertexId(v)| frame.place(mesh.points[v as usize]));
+        let [a, b] = e.ends.map(|v| frame.place(mesh.points[v.index()]));
+        let path = paths
+            .entry(stroke((0.2 * a.distance(b)).max(0.8)))
+            .or_default();
         // Writing to a string cannot fail.
         write!(
             path,
@@ -210,37 +206,45 @@ fn segments(out: &mut Vec<u8>, mesh: &Mesh2, frame: &Frame, edge: f64) {
         )
         .expect("a string takes all text");
     }
-    let width = Short((0.08 * edge).clamp(0.6, 2.4));
     text(
         out,
-        &format!(
-            "<path fill=\"none\" stroke=\"{INK}\" stroke-width=\"{width}\" stroke-linecap=\"round\" d=\"{path}\"/>\n"
-        ),
+        &format!("<g fill=\"none\" stroke=\"{INK}\" stroke-linecap=\"round\">\n"),
     );
+    for (width, path) in paths {
+        text(
+            out,
+            &format!(
+                "<path stroke-width=\"{}\" d=\"{path}\"/>\n",
+                Short(STROKES[width])
+            ),
+        );
+    }
+    text(out, "</g>\n");
 }
 
 /// Dots as lines of length zero with round ends, which keeps the file small; each on a white one. Where the mesh is fine they shrink
 /// in steps, and vanish where they would hide it.
-fn points(out: &mut Vec<u8>, mesh: &Mesh2, frame: &Frame, edge: f64) {
-    /// Radii are whole multiples of this.
+fn points(out: &mut Vec<u8>, mesh: &Mesh2, frame: &Frame) {
+    /// Radii are whole multiples of this, up to the largest.
     const STEP: f64 = 0.4;
-    let largest = (0.09 * edge).clamp(0.8, 3.6);
+    const LARGEST: f64 = 3.2;
     let nearest = shortest_edges(mesh, frame);
-    let kinds: [(&str, f64, fn(VertexKind) -> bool); 3] = [
-        (FREE, 0.85, |k| k == VertexKind::Free),
-        (ON_SEGMENT, 0.95, |k| matches!(k, VertexKind::Segment(_))),
-        (INK, 1.1, |k| k == VertexKind::Input),
+    let kinds = [
+        (FREE, 0.85, VertexKind::Free),
+        (ON_SEGMENT, 0.95, VertexKind::Segment(SegmentId(0))),
+        (INK, 1.1, VertexKind::Input),
     ];
     for (fill, size, of_kind) in kinds {
+        let of_kind = discriminant(&of_kind);
         let mut paths: BTreeMap<u8, String> = BTreeMap::new();
         for (i, &p) in mesh
             .points
             .iter()
             .enumerate()
-            .filter(|&(i, _)| of_kind(mesh.kinds[i]))
+            .filter(|&(i, _)| discriminant(&mesh.kinds[i]) == of_kind)
         {
-            // At most 9: `largest` bounds it.
-            let steps = (largest.min(0.22 * nearest[i]) / STEP) as u8;
+            // At most 8.
+            let steps = (LARGEST.min(0.17 * nearest[i]) / STEP) as u8;
             let at = frame.place(p);
             // Writing to a string cannot fail.
             write!(
@@ -377,7 +381,7 @@ fn histogram(out: &mut Vec<u8>, angles: &[f64]) {
             out,
             &format!(
                 "<rect x=\"{x}\" y=\"50\" width=\"{}\" height=\"10\" fill=\"{fill}\"/>\n",
-                Short(DEGREE + 0.2)
+                Short(DEGREE + 0.6)
             ),
         );
     }
