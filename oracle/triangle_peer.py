@@ -51,6 +51,9 @@ def mesh(degrees, area, limit):
             data["holes"] = np.array(holes)
         options = f"pq{degrees}S{int(limit)}" + (f"a{float(area):.17f}" if float(area) > 0 else "")
         result, seconds = timed(data, options)
+        if "triangles" not in result:
+            print(name, "nothing to mesh", flush=True)
+            continue
         smallest, largest = quality(result)
         ended = int(len(result["vertices"]) - len(points) < int(limit))
         print(name, ended, len(result["vertices"]), len(result["triangles"]), f"{smallest:.4f} {largest:.6e} {seconds:.3f}", flush=True)
