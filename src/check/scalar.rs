@@ -17,7 +17,7 @@ pub trait Scalar:
     fn of(x: f64) -> Self;
     /// A number of which nothing is known.
     fn unknown() -> Self;
-    /// The square root; of a number that may be negative it is unknown.
+    /// The square root; of a negative number it is unknown, and of one that may be, the number is taken as not negative.
     fn root(self) -> Self;
     /// The order, if it is known.
     fn compare(&self, other: &Self) -> Option<Ordering>;
@@ -147,15 +147,17 @@ impl Scalar for Bounded {
         }
     }
 
-    /// |sqrt(x') - sqrt(x)| <= e/sqrt(x), unknown unless e < x/2.
+    /// |sqrt(x') - sqrt(x)| <= e/sqrt(x). Where e is not small against x: anything from 0 to the root of the upper bound.
     fn root(self) -> Self {
-        let s = self.value.sqrt();
-        let error = if self.error < 0.5 * self.value {
-            self.error / s
+        let high = self.high();
+        if self.error < 0.5 * self.value {
+            let s = self.value.sqrt();
+            Self::rounded(s, 2.0 * self.error / s)
+        } else if high >= 0.0 {
+            Self::between(0.0, high.sqrt().next_up())
         } else {
-            f64::NAN
-        };
-        Self::rounded(s, 2.0 * error)
+            Self::unknown()
+        }
     }
 
     fn compare(&self, other: &Self) -> Option<Ordering> {
@@ -330,7 +332,8 @@ impl Scalar for Enclosure {
     }
 
     fn root(self) -> Self {
-        match (self.low.root(), self.high.root()) {
+        let low = std::cmp::max(self.low, Rational::of(0.0));
+        match (low.root(), self.high.root()) {
             (Some((low, _)), Some((_, high))) => Enclosure {
                 low,
                 high,

@@ -190,7 +190,7 @@ impl Spacing {
                 b5_density_non_external(scene, split, parent)
             )
         } else {
-            let text = "2 dist(p,p') <= (1 + sqrt((2 - d2)/d2) - d1)|s|";
+            let text = "2 dist(p,p') <= (1 + sqrt((2 - d2)/d2) - d1)|s|, squared";
             test!(
                 self,
                 event,
@@ -403,8 +403,8 @@ impl Spacing {
         let factor = number::<N>(1.0) + outward - self.share(scene.id, split);
         let slack = number::<N>(2.0) * self.slack(scene.id, split, parent);
         Sides {
-            left: number::<N>(2.0) * pp2.root(),
-            right: factor * self.length2::<N>(split).root() + slack,
+            left: number::<N>(4.0) * pp2,
+            right: widened(factor.squared() * self.length2(split), slack),
         }
     }
 
