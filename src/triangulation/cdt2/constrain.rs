@@ -27,7 +27,7 @@ struct Crossed {
 }
 
 impl<K: Kernel> Cdt2<K> {
-    /// Makes each segment (repaired: no crossings, no vertex inside, no duplicates) an edge; ids are positions.
+    /// Makes each segment (repaired: no crossings, no vertex inside, no duplicates) an edge; ids are positions. Once, before `carve`.
     ///
     /// Errors: `Crossing`, `VertexOnSegment`, each naming one of the places where the input is not as said. The triangulation is then unusable.
     pub fn constrain(&mut self, segments: &[[VertexId; 2]]) -> Result<(), BuildError> {
@@ -181,7 +181,7 @@ impl<K: Kernel> Cdt2<K> {
             let Some(f) = link.twin() else {
                 unreachable!("a segment stays inside the convex hull")
             };
-            // In the triangle of f the segment enters; the right chain ends at the destination of f... its origin is left.
+            // f leads from left to right; its triangle's apex decides which of the two other edges is crossed next.
             triangles.push(f >> 2);
             let apex = self.origin_of(prev(f));
             if apex == v {
@@ -215,9 +215,9 @@ impl<K: Kernel> Cdt2<K> {
     fn retriangulate(&mut self, crossed: &mut Crossed) -> u32 {
         crossed.left.triangulate_below::<K>(&self.points);
         crossed.right.triangulate_below::<K>(&self.points);
-        let region = 0;
-        let left = self.fill(&crossed.left, region, &mut crossed.created);
-        let right = self.fill(&crossed.right, region, &mut crossed.created);
+        // Regions are labelled later, by `carve`.
+        let left = self.fill(&crossed.left, 0, &mut crossed.created);
+        let right = self.fill(&crossed.right, 0, &mut crossed.created);
         self.glue(left, Link::to(right), NONE);
         for &t in &crossed.triangles {
             self.release_slot(t);

@@ -13,7 +13,7 @@ use crate::model::{Point2, Sign, VertexId};
 pub enum Location {
     /// Strictly inside a triangle.
     Triangle(TriId),
-    /// Inside an edge, given by the half-edge with the smaller number of the two along it.
+    /// Inside an edge, given by the half-edge of the region along it, if two by the one with the smaller number.
     Edge(HalfEdge),
     /// On a vertex.
     Vertex(VertexId),
@@ -22,7 +22,7 @@ pub enum Location {
 }
 
 impl<K: Kernel> Cdt2<K> {
-    /// Where p lies, searched from t. The triangles must fill a convex set (before `carve`), else `Outside` may be wrong.
+    /// Where p lies, searched from t. `Outside` also for what `carve` left out; the border of the region belongs to it.
     pub fn locate(&self, t: TriId, p: Point2) -> Location {
         let mut random = 0x9e37_79b9_u32;
         let (mut t, mut entry) = (t.0, NONE);
@@ -66,11 +66,14 @@ impl<K: Kernel> Cdt2<K> {
         let mut on = (0..3)
             .filter(|&k| sides[k as usize] == Sign::Zero)
             .map(|k| 4 * t + k);
+        let inside = |e: &u32| self.slots[(e >> 2) as usize].is_inside();
         Some(match (on.next(), on.next()) {
-            (None, _) => Location::Triangle(TriId(t)),
+            (None, _) if inside(&(4 * t)) => Location::Triangle(TriId(t)),
+            (None, _) => Location::Outside,
             (Some(e), None) => {
-                let twin = self.link(e).twin().unwrap_or(e);
-                Location::Edge(HalfEdge(e.min(twin)))
+                let both = [Some(e), self.link(e).twin()].into_iter().flatten();
+                let e = both.filter(inside).min();
+                e.map_or(Location::Outside, |e| Location::Edge(HalfEdge(e)))
             }
             // Edges k and k + 1 meet at corner k + 1, edges 0 and 2 at corner 0.
             (Some(e), Some(f)) if f == next(e) => Location::Vertex(VertexId(self.origin_of(f))),

@@ -641,6 +641,31 @@ fn carving_keeps_what_it_says() {
 }
 
 #[test]
+fn points_are_located() {
+    let p = |x: f64, y: f64| Point2::new(x, y) / 16.0;
+    let (points, segments) = squares();
+    let mut m = built(&points, &segments).unwrap();
+    let out = p(9.0, 4.0);
+    let from = m.triangles().next().unwrap();
+    let t = match m.locate(from, out) {
+        Location::Triangle(t) => t,
+        other => panic!("{other:?}"),
+    };
+    assert!(m.vertices(t).contains(&VertexId(8)));
+    m.carve(Fill::Seeds, &[], &[p(4.5, 4.0)], &[]).unwrap();
+    for t in m.triangles() {
+        assert_eq!(m.locate(t, out), Location::Outside);
+        assert_eq!(m.locate(t, p(4.5, 4.0)), Location::Outside);
+        assert_eq!(m.locate(t, p(99.0, 4.0)), Location::Outside);
+        assert_eq!(m.locate(t, p(6.0, 6.0)), Location::Vertex(VertexId(6)));
+        let border = m.find_edge(VertexId(1), VertexId(2)).unwrap();
+        assert_eq!(m.locate(t, p(8.0, 3.0)), Location::Edge(border));
+        let center = m.corners(t).iter().sum::<Point2>() / 3.0;
+        assert_eq!(m.locate(from, center), Location::Triangle(t));
+    }
+}
+
+#[test]
 fn a_flood_stops_at_segments_and_labels_are_inherited() {
     let (points, segments) = squares();
     let mut m = built(&points, &segments).unwrap();
