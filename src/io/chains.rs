@@ -153,22 +153,22 @@ impl Chains {
             (
                 NoteKind::Repair,
                 self.merged,
-                "points repeat an earlier one and were merged with it",
+                "points merged with an earlier equal one",
             ),
             (
                 NoteKind::Repair,
                 self.doubled,
-                "segments repeat an earlier one and were merged with it",
+                "segments merged with an earlier equal one",
             ),
             (
                 NoteKind::Repair,
                 self.zero,
-                "segments have equal ends and were dropped",
+                "segments with equal ends, dropped",
             ),
             (
                 NoteKind::Note,
                 self.flattened,
-                "positions have more than two coordinates; only x and y are used",
+                "positions with more than two coordinates, of which x and y are used",
             ),
         ];
         for (kind, tally, what) in tallies {
@@ -176,7 +176,7 @@ impl Chains {
                 self.input.notes.push(Note {
                     kind,
                     line: tally.line,
-                    text: format!("{} {what}", tally.count),
+                    text: format!("{what}: {}", tally.count),
                 });
             }
         }

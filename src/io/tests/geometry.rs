@@ -39,8 +39,8 @@ fn neighbours_stay_filled_and_holes_are_holes() {
     assert_eq!(
         notes,
         [
-            "2 points repeat an earlier one and were merged with it",
-            "1 segments repeat an earlier one and were merged with it"
+            "points merged with an earlier equal one: 2",
+            "segments merged with an earlier equal one: 1"
         ]
     );
     let at = |x, y| inside(&input, Point2::new(x, y));
@@ -69,8 +69,8 @@ fn every_kind_of_wkt() {
     assert_eq!(
         notes,
         [
-            "2 points repeat an earlier one and were merged with it",
-            "4 positions have more than two coordinates; only x and y are used",
+            "points merged with an earlier equal one: 2",
+            "positions with more than two coordinates, of which x and y are used: 4",
             "the reference system 4326 is not interpreted"
         ]
     );
@@ -84,10 +84,7 @@ fn repeated_positions_make_no_segment() {
     assert_eq!(summary(&input).0.len(), 3);
     assert_eq!(
         (input.notes[0].kind, &*input.notes[0].text),
-        (
-            NoteKind::Repair,
-            "1 segments have equal ends and were dropped"
-        )
+        (NoteKind::Repair, "segments with equal ends, dropped: 1")
     );
 }
 
