@@ -3,7 +3,7 @@
 //! A face is a set of triangles connected across unconstrained edges. Faces are numbered, then kept or dropped as a whole.
 
 use super::Location;
-use super::store::{Cdt2, Link, NONE, OUTSIDE, Slot, TriId};
+use super::store::{Cdt2, Link, NONE, OUTSIDE};
 use crate::arith::Kernel;
 use crate::model::{Fill, Point2};
 
@@ -55,7 +55,8 @@ impl<K: Kernel> Cdt2<K> {
     ///
     /// `toggles[s]` tells whether crossing segment s changes sides under `Fill::Parity`; it is read under no other.
     /// Under `Fill::Convex` the caller has made the hull's edges segments.
-    /// The triangles are renumbered; links across to dropped triangles become `None`. Nothing is changed on an error: the first of `carve_findings`.
+    /// Dropped triangles stay as filler that no reader sees: twins across to them are `None`. Nothing is changed on an error: the first of
+    /// `carve_findings`.
     pub fn carve(
         &mut self,
         fill: Fill,
