@@ -101,7 +101,7 @@ fn perform(path: &Path, fill: Option<Fill>, task: &Task, how: &RunArgs, out: &Ou
             &loaded.prepared.pslg,
             task,
             how,
-            (&run, &limit),
+            &limit,
             first_trace(out, &staged, &memory)?,
         )?)
     } else {
@@ -260,11 +260,11 @@ fn mirrored<R: std::io::BufRead>(
     pslg: &Pslg,
     task: &Task,
     how: &RunArgs,
-    (first, limit): (&Run, &Limit),
+    limit: &Limit,
     trace: Reader<R>,
 ) -> Result<Mirror, Failure> {
     let begun = Instant::now();
-    let mut limit = Limit::again(limit, first.stop_reason.as_deref());
+    let mut limit = limit.again();
     let mut stop = || limit.ask();
     let mut options = Options {
         max_steps: how.max_steps,

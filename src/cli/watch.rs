@@ -18,12 +18,19 @@ pub fn catch_interrupts() {
 /// The reason to stop, asked now and then by a run; counts how often it was asked, so that a second run can stop at the same place.
 #[derive(Debug)]
 pub struct Limit {
-    deadline: Option<Instant>,
-    seconds: f64,
-    /// Times asked.
-    pub asked: u64,
-    /// Where a second run has to stop, and the reason it has to give.
-    pub script: Option<(u64, String)>,
+    when: When,
+    asked: u64,
+    given: Option<String>,
+}
+
+/// When a limit says stop.
+#[derive(Debug)]
+enum When {
+    /// At an interrupt, or at a time if there is one: the budget of so many seconds.
+    Clock(Option<Instant>, f64),
+    /// The so-manieth time that it is asked, for this reason.
+    Script(u64, String),
+    Never,
 }
 
 impl Limit {
@@ -32,39 +39,38 @@ impl Limit {
         let span = seconds.and_then(|s| Duration::try_from_secs_f64(s.max(0.0)).ok());
         let deadline = span.and_then(|span| Instant::now().checked_add(span));
         Limit {
-            deadline,
-            seconds: seconds.unwrap_or(0.0),
+            when: When::Clock(deadline, seconds.unwrap_or(0.0)),
             asked: 0,
-            script: None,
+            given: None,
         }
     }
 
-    /// A limit that stops where `first` did, for its reason, and nowhere else. `reason`: what the first run gave.
-    pub fn again(first: &Limit, reason: Option<&str>) -> Self {
-        let script = reason.map(|reason| (first.asked, reason.to_string()));
+    /// A limit that stops where this one did, for its reason, and nowhere else.
+    pub fn again(&self) -> Self {
+        let when = self
+            .given
+            .clone()
+            .map_or(When::Never, |reason| When::Script(self.asked, reason));
         Limit {
-            deadline: None,
-            seconds: 0.0,
+            when,
             asked: 0,
-            script: Some(script.unwrap_or((u64::MAX, String::new()))),
+            given: None,
         }
     }
 
     /// Answers a run.
     pub fn ask(&mut self) -> Option<String> {
         self.asked += 1;
-        if let Some((at, reason)) = &self.script {
-            return (self.asked == *at).then(|| reason.clone());
-        }
-        if INTERRUPTED.load(Ordering::Relaxed) {
-            return Some("interrupted".into());
-        }
-        match self.deadline {
-            Some(deadline) if Instant::now() >= deadline => {
-                Some(format!("the budget of {} seconds is spent", self.seconds))
+        let reason = match &self.when {
+            When::Clock(..) if INTERRUPTED.load(Ordering::Relaxed) => "interrupted".into(),
+            When::Clock(Some(deadline), seconds) if Instant::now() >= *deadline => {
+                format!("the budget of {seconds} seconds is spent")
             }
-            _ => None,
-        }
+            When::Script(at, reason) if self.asked == *at => reason.clone(),
+            _ => return None,
+        };
+        self.given = Some(reason.clone());
+        Some(reason)
     }
 }
 
