@@ -5,6 +5,7 @@ pub mod arith;
 pub mod audit;
 pub mod check;
 pub mod cli;
+pub mod doctor;
 pub mod domain;
 #[cfg(any(test, feature = "generators"))]
 pub mod generators;

@@ -205,22 +205,15 @@ impl Finding {
         }
     }
 
-    /// A seed that lies on a segment. `segment` counts in the input.
-    pub fn seed_on_segment(seed: Element, segment: SegmentId, pslg: &Pslg, lines: &Lines) -> Self {
-        let message = format!("the seed of {seed} lies on segment {}", segment.0);
-        let elements = vec![seed, Element::Segment(segment)];
-        Finding::new(
-            Kind::SeedOnSegment,
-            elements,
-            seed_point(seed, pslg),
-            lines,
-            message,
-        )
+    /// A seed that lies on a segment or vertex.
+    pub fn seed_on_segment(seed: Element, pslg: &Pslg, lines: &Lines) -> Self {
+        let message = format!("the seed of {seed} lies on a segment or vertex, so that it names no face");
+        Finding::new(Kind::SeedOnSegment, vec![seed], seed_point(seed, pslg), lines, message)
     }
 
     /// A seed in no face that could be meshed.
     pub fn seed_outside(seed: Element, pslg: &Pslg, lines: &Lines) -> Self {
-        let message = format!("the seed of {seed} lies outside of every closed region");
+        let message = format!("the seed of {seed} lies outside of what is meshed");
         Finding::new(
             Kind::SeedOutside,
             vec![seed],

@@ -4,6 +4,7 @@
 //! repairs what can be repaired without a new coordinate, and notes what the user may want to know. What needs a
 //! triangulation (regions, seeds) is examined by `doctor`, with the findings this module provides.
 
+mod angles;
 mod crossings;
 mod finding;
 mod normalise;
@@ -11,6 +12,7 @@ mod repair;
 mod sweep;
 mod validate;
 
+pub use angles::{SmallAngle, angle_notes, small_angles};
 pub use finding::{Element, Finding, Findings, Kind, LISTED_PER_KIND, Severity, merge_findings};
 pub use normalise::{GREATEST_COORDINATE, LARGEST_SCALE, LEAST_COORDINATE, Scale, normalise};
 pub use validate::{Prepared, prepare};
