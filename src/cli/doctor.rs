@@ -1,7 +1,7 @@
 //! `doctor`: every finding in an input at once.
 
 use super::args::DoctorArgs;
-use super::input::load;
+use super::input::load_examined;
 use super::{Answer, Status, data};
 use crate::domain::Severity;
 use crate::model::Fill;
@@ -9,7 +9,7 @@ use serde_json::json;
 
 /// Lists all findings, errors first. Exit code 1 if there is an error among them.
 pub fn run(args: &DoctorArgs) -> Answer {
-    let loaded = load(&args.input, args.convex.then_some(Fill::Convex))?;
+    let loaded = load_examined(&args.input, args.convex.then_some(Fill::Convex))?;
     let [errors, repairs, notes] =
         [Severity::Error, Severity::Repair, Severity::Note].map(|s| loaded.count(s));
     if args.json {

@@ -3,9 +3,10 @@
 use super::files::{companion, read};
 use super::{Failure, data, talk};
 use crate::arith::FastKernel;
+use crate::doctor::examine;
 use crate::domain::{Finding, Prepared, Severity, prepare};
 use crate::io::{self, Format, Input, Note, NoteKind, ReadError};
-use crate::model::Fill;
+use crate::model::{Fill, Lines, Pslg};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -32,6 +33,19 @@ pub struct Loaded {
 /// Reads and examines an input. A fault of the file is an entry of its own, and the only one. Errors: the file cannot be opened, or its
 /// extension says nothing.
 pub fn load(path: &Path, fill: Option<Fill>) -> Result<Loaded, Failure> {
+    load_with(path, fill, prepare::<FastKernel>)
+}
+
+/// As `load`, but examines all that a trial triangulation can tell, too.
+pub fn load_examined(path: &Path, fill: Option<Fill>) -> Result<Loaded, Failure> {
+    load_with(path, fill, examine::<FastKernel>)
+}
+
+fn load_with(
+    path: &Path,
+    fill: Option<Fill>,
+    make: fn(&Pslg, &Lines) -> Prepared,
+) -> Result<Loaded, Failure> {
     let mut input = match read_input(path)? {
         Ok(input) => input,
         Err(e) => {
@@ -45,7 +59,7 @@ pub fn load(path: &Path, fill: Option<Fill>) -> Result<Loaded, Failure> {
     if let Some(fill) = fill {
         input.pslg.fill = fill;
     }
-    let prepared = prepare::<FastKernel>(&input.pslg, &input.lines);
+    let prepared = make(&input.pslg, &input.lines);
     let notes = input.notes.iter().map(note);
     let mut entries: Vec<Entry> = notes.chain(prepared.findings.iter().map(finding)).collect();
     entries.sort_by_key(|e| e.severity);

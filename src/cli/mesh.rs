@@ -3,7 +3,7 @@
 use super::args::{KernelName, MeshArgs, OutArgs, RunArgs, TriangulateArgs};
 use super::convert::trace_format;
 use super::files::Staged;
-use super::input::{Loaded, load};
+use super::input::{Loaded, load, load_examined};
 use super::outputs::{check_names, stage};
 use super::parameters::parameters;
 use super::report::{self, Quality};
@@ -289,6 +289,13 @@ fn mirrored<R: std::io::BufRead>(
 fn refused(e: RunError, loaded: &mut Loaded, path: &Path, json: bool) -> Answer {
     match &e {
         RunError::Range(findings) => loaded.add(findings),
+        // The same list as `doctor`'s, located in the file.
+        RunError::Carve(_) | RunError::Build(_) => {
+            *loaded = load_examined(path, Some(loaded.prepared.pslg.fill))?;
+            if !loaded.refused() {
+                return Err(Failure::at(path, e));
+            }
+        }
         _ => return Err(Failure::at(path, e)),
     }
     loaded.tell_refusal(path, json)?;

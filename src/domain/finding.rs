@@ -35,7 +35,7 @@ pub enum Kind {
     CoincidentVertices,
     /// Error: two segments cross where no vertex is.
     Crossing,
-    /// Error: no face of the graph is to be meshed.
+    /// Error: segments enclose no face.
     NoClosedRegion,
     /// Error: a hole or region seed lies on a segment.
     SeedOnSegment,
@@ -59,6 +59,8 @@ pub enum Kind {
     IsolatedVertex,
     /// Note: a vertex or segment lies in no part that is meshed.
     Outside,
+    /// Note: holes take everything that segments enclose; the mesh is empty.
+    NothingLeft,
 }
 
 impl Kind {
@@ -69,7 +71,7 @@ impl Kind {
             NotFinite | OutOfRange | BadIndex | CoincidentVertices | Crossing | NoClosedRegion
             | SeedOnSegment | SeedOutside | SeedsInOneFace => Severity::Error,
             VertexOnSegment | Overlap | DoubledSegment | ZeroLength => Severity::Repair,
-            SmallAngle | DanglingSegment | IsolatedVertex | Outside => Severity::Note,
+            SmallAngle | DanglingSegment | IsolatedVertex | Outside | NothingLeft => Severity::Note,
         }
     }
 
@@ -87,7 +89,7 @@ impl Kind {
             CoincidentVertices => "keep one of the vertices and let the segments refer to it",
             Crossing => "put a vertex at the crossing and split both segments there",
             NoClosedRegion => {
-                "close the boundary with segments, move the hole seeds, or mesh the convex hull (--convex)"
+                "close the boundary with segments, or mesh the convex hull (--convex)"
             }
             SeedOnSegment => "move the seed off the segment, into the face it stands for",
             SeedOutside => "move the seed into the face it stands for, or remove it",
@@ -104,6 +106,9 @@ impl Kind {
             }
             IsolatedVertex => {
                 "none needed: it becomes a vertex of the mesh if it lies in the region"
+            }
+            NothingLeft => {
+                "move the hole seeds, close the boundary around them, or mesh the convex hull (--convex)"
             }
             Outside => {
                 "none needed: it is left out; if it was meant to be meshed, close the boundary around it"
@@ -194,21 +199,39 @@ impl Finding {
         self.kind.fix()
     }
 
-    /// No face is to be meshed.
+    /// Segments enclose no face.
     pub fn no_closed_region() -> Self {
-        Finding {
-            kind: Kind::NoClosedRegion,
-            elements: Vec::new(),
-            coordinates: Vec::new(),
-            lines: Vec::new(),
-            message: "no region is closed: nothing is left to mesh".into(),
-        }
+        let message = "the segments enclose no region: there is nothing to mesh".into();
+        Finding::new(
+            Kind::NoClosedRegion,
+            Vec::new(),
+            Vec::new(),
+            &Lines::default(),
+            message,
+        )
+    }
+
+    /// Holes take every face that segments enclose.
+    pub fn nothing_left(pslg: &Pslg, lines: &Lines) -> Self {
+        let message = "the holes take all that the segments enclose: the mesh is empty".into();
+        let holes = (0u32..)
+            .zip(&pslg.holes)
+            .map(|(i, _)| Element::Hole(i))
+            .collect();
+        Finding::new(Kind::NothingLeft, holes, pslg.holes.clone(), lines, message)
     }
 
     /// A seed that lies on a segment or vertex.
     pub fn seed_on_segment(seed: Element, pslg: &Pslg, lines: &Lines) -> Self {
-        let message = format!("the seed of {seed} lies on a segment or vertex, so that it names no face");
-        Finding::new(Kind::SeedOnSegment, vec![seed], seed_point(seed, pslg), lines, message)
+        let message =
+            format!("the seed of {seed} lies on a segment or vertex, so that it names no face");
+        Finding::new(
+            Kind::SeedOnSegment,
+            vec![seed],
+            seed_point(seed, pslg),
+            lines,
+            message,
+        )
     }
 
     /// A seed in no face that could be meshed.

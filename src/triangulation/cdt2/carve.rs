@@ -37,7 +37,7 @@ pub enum CarveError {
     /// Two region seeds lie in one face.
     #[error("seeds of regions {0} and {1} lie in one face")]
     OneFace(usize, usize),
-    /// No face is left.
+    /// No face is enclosed. (That holes take every enclosed face is no error: nothing is kept.)
     #[error("no region is closed by segments")]
     Nothing,
 }
@@ -118,7 +118,7 @@ impl<K: Kernel> Cdt2<K> {
                 Ok(face) => faces.region[face] = i as u32 + 1,
             }
         }
-        if !faces.kept.contains(&true) {
+        if !inside.contains(&true) {
             findings.push(CarveError::Nothing);
         }
         (faces, findings)
