@@ -126,3 +126,11 @@ fn check_all(options: Options) {
 fn true_traces_are_accepted() {
     check_all(Options::default());
 }
+
+#[test]
+fn true_traces_are_accepted_strictly() {
+    check_all(Options {
+        strict: true,
+        ..Options::default()
+    });
+}

@@ -7,6 +7,7 @@ use super::replay::{Replay, Scale, placed};
 use super::rows::Regions;
 use super::sight::Search;
 use super::start::{self, Domain};
+use super::strict::Strict;
 use super::value::power_of_two;
 use super::verdict::{Checked, Place, Rejection, Rule, Unchecked, Verdict, broken, ensure};
 use crate::model::{Choice, DiskChoice, GcdrParameters, Level, Point2, Region, Segment};
@@ -65,6 +66,7 @@ pub struct Checker {
     scale: Scale,
     sectors: Vec<Sector>,
     replay: Option<Replay>,
+    strict: Option<Strict>,
     events: u64,
     unchecked: Vec<Unchecked>,
     rejection: Option<Rejection>,
@@ -97,6 +99,7 @@ impl Checker {
             scale: Scale::default(),
             sectors: Vec::new(),
             replay: None,
+            strict: None,
             events: 0,
             unchecked: Vec::new(),
             rejection: None,
@@ -335,6 +338,7 @@ impl Checker {
         replay.apexes = apexes;
         replay.search = search;
         replay.region_bounds = self.domain.regions.iter().map(|r| r.max_area).collect();
+        self.strict = self.options.strict.then(|| Strict::new(&replay));
         self.replay = Some(replay);
         Ok(())
     }
@@ -361,10 +365,17 @@ impl Checker {
                 self.unchecked.dedup();
             }
         }
+        if let Some(strict) = &mut self.strict {
+            strict.before(replay, event)?;
+        }
+        replay.event(event)?;
         if !matches!(event, Event::Remove { .. }) {
+            if let Some(strict) = &mut self.strict {
+                strict.after(replay, event);
+            }
             replay.created.clear();
         }
-        replay.event(event)
+        Ok(())
     }
 
     fn end(&mut self, end: &End) -> Checked {

@@ -11,6 +11,7 @@
 //! | `start` | the initial triangulation and the region |
 //! | `replay` | one function per kind of event |
 //! | `rows` | the inequalities of the theory, `docs/gcdr.md` |
+//! | `strict` | the choices: order, points, skips |
 //! | `promise` | the level that parameters and input allow |
 //! | `claims` | what must hold at the end |
 //! | `spacing` | local feature size, and the rows that speak of it |
@@ -30,6 +31,7 @@ mod sight;
 mod snapshot;
 pub mod spacing;
 mod start;
+mod strict;
 mod value;
 mod verdict;
 

@@ -7,7 +7,7 @@
 //! factor 1 + 2^-20 over any formula here; `sign` pays for it. Underflow costs at most `TINY` a product.
 
 use crate::model::Sign;
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 /// A number that formulas can be written over.
 pub trait Number: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
@@ -230,6 +230,14 @@ impl Mul for Exact {
     type Output = Exact;
     fn mul(self, other: Exact) -> Exact {
         Exact(self.0 * other.0)
+    }
+}
+
+impl Div for Exact {
+    type Output = Exact;
+    /// The divisor is not 0.
+    fn div(self, other: Exact) -> Exact {
+        Exact(self.0 / other.0)
     }
 }
 
