@@ -1,11 +1,10 @@
 //! Finding bad triangles and keeping them in order. Source: [GCDR] Algorithm 2, lines 2-4, 15.
 
-use super::queue::Bad;
+use super::queue::{Bad, Badness};
 use super::{Refiner, params::in_window};
 use crate::arith::Kernel;
 use crate::model::Point2;
 use crate::refine::RunError;
-use crate::trace::Cause;
 use crate::triangulation::cdt2::TriId;
 
 impl<K: Kernel> Refiner<'_, '_, K> {
@@ -47,28 +46,18 @@ impl<K: Kernel> Refiner<'_, '_, K> {
     fn classify(&mut self, t: TriId) -> Result<(), RunError> {
         let corners = self.cdt.corners(t);
         if K::is_skinny(corners, self.params.rho2) {
-            self.enqueue(t, Cause::Skinny, 0.0);
+            self.skinny.push(&self.cdt, t, Badness::Skinny, 0.0);
         }
         let bound = self.area_bounds[self.cdt.region(t) as usize];
         if let Some(bound) = bound.filter(|&bound| K::exceeds_area(corners, bound)) {
-            self.enqueue(t, Cause::Area, bound);
+            self.oversized.push(&self.cdt, t, Badness::Area, bound);
         } else if let Some(h) = self
             .size_at(corners)?
             .filter(|&h| K::exceeds_radius(corners, h))
         {
-            self.enqueue(t, Cause::Size { h }, h);
+            self.oversized.push(&self.cdt, t, Badness::Size, h);
         }
         Ok(())
-    }
-
-    fn enqueue(&mut self, t: TriId, cause: Cause, bound: f64) {
-        let queue = if cause == Cause::Skinny {
-            &mut self.skinny
-        } else {
-            &mut self.oversized
-        };
-        let bad = queue.entry(&self.cdt, t, cause, bound);
-        queue.push(&self.cdt, bad);
     }
 
     /// The size function at the rounded circumcenter, normalised.

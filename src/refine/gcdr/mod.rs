@@ -150,7 +150,10 @@ pub fn run<K: Kernel>(
         params: normal,
         current: None,
         skipped: Vec::new(),
-        stray: Stray::Exact,
+        stray: match level {
+            Level::Outside => Stray::Outside,
+            _ => Stray::Exact,
+        },
         change: Change::default(),
         fresh: Vec::new(),
         flood_marks: Vec::new(),
@@ -191,7 +194,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
                     self.current = None;
                     self.emit(Event::Skip {
                         t: bad.ids,
-                        cause: self.unscaled(bad.cause),
+                        cause: self.unscaled(bad.cause()),
                         reason,
                     })?;
                     self.skipped.push((bad, reason));
@@ -205,7 +208,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
     /// One step for a bad triangle: an insertion, or the reason why there is none.
     fn treat(&mut self, bad: &Bad) -> Result<Option<SkipReason>, RunError> {
         let t = bad.t;
-        if bad.cause == Cause::Skinny
+        if bad.cause() == Cause::Skinny
             && let Some(apex) = self.excusing_apex(t)
         {
             return Ok(Some(SkipReason::InputAngle { apex }));
@@ -236,7 +239,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         self.kinds.push(Kind::Free);
         self.counts.type_a += 1;
         let why = Why::Free {
-            cause: self.unscaled(bad.cause),
+            cause: self.unscaled(bad.cause()),
         };
         self.record_insertion(a, why, change)?;
         self.classify_fresh()
@@ -347,7 +350,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             kind,
             s: [u, v],
             t: bad.ids,
-            cause: self.unscaled(bad.cause),
+            cause: self.unscaled(bad.cause()),
             a: self.scale.to_input(a),
             shell: shell.map(|Shell { apex, k }| Shell {
                 apex,
@@ -455,7 +458,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             .map(|(bad, reason)| Unmet {
                 corners: bad.ids.map(|v| self.scale.to_input(self.cdt.point(v))),
                 triangle: canonical_triangle(bad.ids.map(|v| VertexId(dense[v.index()]))),
-                cause: self.unscaled(bad.cause),
+                cause: self.unscaled(bad.cause()),
                 reason: *reason,
             })
             .collect();
