@@ -93,7 +93,7 @@ fn perform(path: &Path, fill: Option<Fill>, task: &Task, how: &RunArgs, out: &Ou
     );
     let (run, trace_digest, memory) = match outcome? {
         Ok(done) => done,
-        Err(e) => return refused(e, &mut loaded, path, out.json),
+        Err(e) => return refused(e, task, &mut loaded, path, out.json),
     };
     let seconds = begun.elapsed().as_secs_f64();
     let mirror = if how.mirror {
@@ -286,11 +286,17 @@ fn mirrored<R: std::io::BufRead>(
 }
 
 /// A run that ended without an outcome: what the input has to do with it is a finding like any other.
-fn refused(e: RunError, loaded: &mut Loaded, path: &Path, json: bool) -> Answer {
-    match &e {
-        RunError::Range(findings) => loaded.add(findings),
+fn refused(
+    e: RunError,
+    task: &Task,
+    loaded: &mut Loaded,
+    path: &Path,
+    json: bool,
+) -> Answer {
+    match (&e, task) {
+        (RunError::Range(findings), _) => loaded.add(findings),
         // The same list as `doctor`'s, located in the file.
-        RunError::Carve(_) | RunError::Build(_) => {
+        (RunError::Carve(_) | RunError::Build(_), Task::Refine(_)) => {
             *loaded = load_examined(path, Some(loaded.prepared.pslg.fill))?;
             if !loaded.refused() {
                 return Err(Failure::at(path, e));
