@@ -286,13 +286,7 @@ fn mirrored<R: std::io::BufRead>(
 }
 
 /// A run that ended without an outcome: what the input has to do with it is a finding like any other.
-fn refused(
-    e: RunError,
-    task: &Task,
-    loaded: &mut Loaded,
-    path: &Path,
-    json: bool,
-) -> Answer {
+fn refused(e: RunError, task: &Task, loaded: &mut Loaded, path: &Path, json: bool) -> Answer {
     match (&e, task) {
         (RunError::Range(findings), _) => loaded.add(findings),
         // The same list as `doctor`'s, located in the file.
