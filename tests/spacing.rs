@@ -240,6 +240,62 @@ fn c4_rejects_a_parent_outside_the_disk() {
 }
 
 #[test]
+fn c4_rejects_a_density_that_an_incident_parent_does_not_allow() {
+    // a corner of 65 degrees at vertex 0; vertex 4 splits one side 3 from the corner, inside Diam of the other side
+    let (sin, cos) = 65f64.to_radians().sin_cos();
+    let pslg = polygon(&[
+        (0.0, 0.0),
+        (8.0, 0.0),
+        (8.0 + 8.0 * cos, 8.0 * sin),
+        (8.0 * cos, 8.0 * sin),
+    ]);
+    let head = head(&pslg);
+    let center = (4.0, 3.0);
+    let first = split(
+        (3.0 * cos, 3.0 * sin),
+        center,
+        SplitKind::B,
+        [0, 3],
+        [0, 1, 3],
+        &[[0, 1, 3]],
+    );
+    let second = |destroyed: &[[u32; 3]]| {
+        split(
+            (4.0, 0.0),
+            center,
+            SplitKind::C {
+                parent: VertexId(4),
+            },
+            [0, 1],
+            [0, 1, 4],
+            destroyed,
+        )
+    };
+    let mut spacing = Spacing::new();
+    for record in head.iter().chain([&first]) {
+        spacing.record(record).unwrap_or_else(|v| panic!("{v:?}"));
+    }
+    let mut honest = spacing.clone();
+    honest
+        .record(&second(&[[0, 1, 4]]))
+        .unwrap_or_else(|v| panic!("{v:?}"));
+    assert_eq!(
+        honest.report().rows[&Row::C4].held,
+        2,
+        "distance and density"
+    );
+    // its own rows may fail: it only has to be there
+    let _ = spacing.record(&free((4.0, 0.01), &[[0, 1, 4]]));
+    let violation = spacing
+        .record(&second(&[[0, 1, 5]]))
+        .expect_err("R = 1/100, lfs = 4");
+    assert_eq!(
+        (violation.row, violation.expected.as_str()),
+        (Row::C4, "D <= B4 + D'/C4, times R")
+    );
+}
+
+#[test]
 fn c3_rejects_a_radius_below_local_feature_size() {
     // 4 is inside Diam(0 1) at 3; a free vertex at distance 1/2, which the split should have deleted, makes R too small
     let mut pslg = polygon(&[(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)]);
