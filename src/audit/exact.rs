@@ -34,6 +34,12 @@ pub(super) fn is_near_line(a: Point2, b: Point2, p: Point2, distance: f64) -> bo
     decide!(near_line_in(a, b, p, distance)).is_le()
 }
 
+/// Whether the circumradius of a triangle is at least rho times its shortest edge: m^2 n^2 >= 4 rho^2 cross^2, with m and n the
+/// longer edges and cross twice the area, since circumradius = l m n / (2 cross).
+pub(super) fn is_skinny(t: [Point2; 3], rho2: f64) -> bool {
+    decide!(skinny_in(t, rho2)).is_ge()
+}
+
 /// About how far p is from the line ab, for display: exactly 0 if it is on it.
 pub(super) fn distance_from_line(a: Point2, b: Point2, p: Point2) -> f64 {
     if orient(a, b, p) == Ordering::Equal {
@@ -85,6 +91,15 @@ fn dot<N: Scalar>([a, b]: [N; 2], [c, d]: [N; 2]) -> N {
 
 fn cross<N: Scalar>([a, b]: [N; 2], [c, d]: [N; 2]) -> N {
     a * d - b * c
+}
+
+fn skinny_in<N: Scalar>([a, b, c]: [Point2; 3], rho2: f64) -> Option<Ordering> {
+    let edges = [difference::<N>(b, a), difference::<N>(c, b), difference::<N>(a, c)];
+    let [l, m, n] = edges.clone().map(|e| dot(e.clone(), e));
+    // The product of the two longer squares is the largest of the three products.
+    let longer = (l.clone() * m.clone()).max(m * n.clone()).max(n * l);
+    let [u, v, _] = edges;
+    longer.compare(&(N::of(4.0) * N::of(rho2) * cross(u, v).squared()))
 }
 
 fn orient_in<N: Scalar>(a: Point2, b: Point2, c: Point2) -> Option<Ordering> {

@@ -1,6 +1,7 @@
-//! Figures that are told, not tested: quality and topology. Computed in doubles; they decide nothing.
+//! Quality and topology. Figures are computed in doubles and told; only a quality that is claimed is decided, exactly.
 
 use super::complex::Complex;
+use super::exact::is_skinny;
 use super::report::{Claim, ClaimReport, Verdict, Witness};
 
 /// How many of the worst triangles are shown.
@@ -34,7 +35,7 @@ fn shape(complex: &Complex<'_>, t: u32) -> Shape {
 }
 
 /// Angles, ratios, areas; the triangles of least angle as witnesses.
-pub(super) fn quality(complex: &Complex<'_>) -> ClaimReport {
+pub(super) fn quality(complex: &Complex<'_>, rho2: Option<f64>) -> ClaimReport {
     let mut report = ClaimReport {
         verdict: Verdict::Told,
         ..ClaimReport::new(Claim::Quality)
@@ -72,6 +73,16 @@ pub(super) fn quality(complex: &Complex<'_>) -> ClaimReport {
         ("below_25_degrees", below(25.0)),
         ("below_30_degrees", below(30.0)),
     ];
+    if let Some(rho2) = rho2 {
+        report.verdict = Verdict::Holds;
+        for &(angle, t) in by_angle.iter().filter(|a| is_skinny(complex.corners(a.1), rho2)) {
+            let (file, vertices) = (complex.in_file[t as usize], complex.triangles[t as usize]);
+            report.violated(complex.subject, &vertices, &[file], || {
+                format!("triangle {file} {vertices:?} is skinny, with an angle of {angle:.4} degrees")
+            });
+        }
+        return report;
+    }
     for &(angle, t) in by_angle.iter().take(WORST) {
         let file = complex.in_file[t as usize];
         let vertices = complex.triangles[t as usize].to_vec();

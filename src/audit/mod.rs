@@ -15,7 +15,8 @@
 //!   has the other's far corner strictly inside its circle. By the constrained Delaunay lemma this suffices for a valid complex.
 //! - `canonical`: as `constrained`, ties decided by the one symbolic perturbation: the mesh is the only one of its kind.
 //! - `conforming`: see `conforming`.
-//! - `quality`, `topology`: figures, told.
+//! - `quality`: every triangle has a circumradius below rho times its shortest edge; without a rho, figures are told.
+//! - `topology`: figures, told.
 //!
 //! A claim that rests on a violated `valid` is violated if a witness is found, else unchecked.
 
@@ -61,6 +62,8 @@ pub struct Options<'a> {
     pub input: Option<(&'a Pslg, &'a Lines)>,
     /// How far a vertex may be off its segment: in units of the last place of the largest coordinate of the mesh.
     pub within: f64,
+    /// The quality claimed, as the square of a ratio: every triangle has a circumradius below rho times its shortest edge.
+    pub rho2: Option<f64>,
 }
 
 impl Default for Options<'_> {
@@ -69,6 +72,7 @@ impl Default for Options<'_> {
             claims: &Claim::ALL,
             input: None,
             within: 2.0,
+            rho2: None,
         }
     }
 }
@@ -87,7 +91,7 @@ pub fn audit(subject: &Subject<'_>, options: &Options<'_>) -> Report {
             Claim::Constrained => delaunay::constrained(&complex, &chains.constraints),
             Claim::Canonical => delaunay::canonical(&complex, &chains.constraints),
             Claim::Conforming => chains.report.clone(),
-            Claim::Quality => figures::quality(&complex),
+            Claim::Quality => figures::quality(&complex, options.rho2),
             Claim::Topology => figures::topology(&complex),
         };
         if !sound && report.verdict == Verdict::Holds {

@@ -36,6 +36,7 @@ pub(super) fn crossings<K: Kernel>(
     let segments = Boxes::new(spans.len(), |i| corners(i as u32));
     let vertices = Boxes::new(order.len(), |i| [points[order[i] as usize]; 2]);
     let mut visits = MOST_VISITS;
+    let mut asked = vec![false; spans.len()];
     for &s in suspects {
         let [a, b] = corners(s);
         let ends = spans[s as usize].ends;
@@ -58,6 +59,9 @@ pub(super) fn crossings<K: Kernel>(
             .incidences
             .extend(inside.iter().map(|&i| (s, order[i as usize])));
         segments.visit::<K>([a, b], &mut visits, |t| {
+            if asked[t as usize] {
+                return; // counted when it was asked for
+            }
             let [c, d] = corners(t);
             if found.pairs.len() < MOST_CROSSINGS
                 && crosses::<K>([a, b], [c, d])
@@ -66,13 +70,13 @@ pub(super) fn crossings<K: Kernel>(
                 found.pairs.push([s.min(t), s.max(t)]);
             }
         });
+        asked[s as usize] = true;
         if visits == 0 || found.pairs.len() >= MOST_CROSSINGS {
             found.at_least = true;
             break;
         }
     }
     found.pairs.sort_unstable();
-    found.pairs.dedup();
     found
 }
 
