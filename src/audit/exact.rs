@@ -94,7 +94,11 @@ fn cross<N: Scalar>([a, b]: [N; 2], [c, d]: [N; 2]) -> N {
 }
 
 fn skinny_in<N: Scalar>([a, b, c]: [Point2; 3], rho2: f64) -> Option<Ordering> {
-    let edges = [difference::<N>(b, a), difference::<N>(c, b), difference::<N>(a, c)];
+    let edges = [
+        difference::<N>(b, a),
+        difference::<N>(c, b),
+        difference::<N>(a, c),
+    ];
     let [l, m, n] = edges.clone().map(|e| dot(e.clone(), e));
     // The product of the two longer squares is the largest of the three products.
     let longer = (l.clone() * m.clone()).max(m * n.clone()).max(n * l);

@@ -75,10 +75,15 @@ pub(super) fn quality(complex: &Complex<'_>, rho2: Option<f64>) -> ClaimReport {
     ];
     if let Some(rho2) = rho2 {
         report.verdict = Verdict::Holds;
-        for &(angle, t) in by_angle.iter().filter(|a| is_skinny(complex.corners(a.1), rho2)) {
+        for &(angle, t) in by_angle
+            .iter()
+            .filter(|a| is_skinny(complex.corners(a.1), rho2))
+        {
             let (file, vertices) = (complex.in_file[t as usize], complex.triangles[t as usize]);
             report.violated(complex.subject, &vertices, &[file], || {
-                format!("triangle {file} {vertices:?} is skinny, with an angle of {angle:.4} degrees")
+                format!(
+                    "triangle {file} {vertices:?} is skinny, with an angle of {angle:.4} degrees"
+                )
             });
         }
         return report;

@@ -594,9 +594,21 @@ fn quality_of_a_right_triangle() {
 fn claimed_quality_is_exact() {
     // Half squares have r^2 / l^2 = 1/2 exactly; a tie is skinny.
     let (p, t) = (points(&SQUARE), ids(&[[0, 1, 2], [2, 3, 0]]));
-    let subject = Subject { points: &p, triangles: &t, ..Subject::default() };
+    let subject = Subject {
+        points: &p,
+        triangles: &t,
+        ..Subject::default()
+    };
     for (rho2, expected) in [(0.5, 2), (0.5f64.next_up(), 0), (0.5f64.next_down(), 2)] {
-        let options = Options { claims: &[Claim::Quality], rho2: Some(rho2), ..Options::default() };
-        assert_eq!(audit(&subject, &options).claims[0].violations, expected, "{rho2:e}");
+        let options = Options {
+            claims: &[Claim::Quality],
+            rho2: Some(rho2),
+            ..Options::default()
+        };
+        assert_eq!(
+            audit(&subject, &options).claims[0].violations,
+            expected,
+            "{rho2:e}"
+        );
     }
 }

@@ -206,6 +206,9 @@ pub struct CheckArgs {
     /// How far a vertex may be off its segment, in ulps of the bounding box
     #[arg(long, value_name = "ULPS", default_value_t = 2.0)]
     pub within: f64,
+    /// Least angle claimed, in degrees; without it, quality is only told
+    #[arg(long, value_name = "DEG")]
+    pub min_angle: Option<f64>,
     /// One JSON object on stdout
     #[arg(long)]
     pub json: bool,

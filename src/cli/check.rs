@@ -4,6 +4,7 @@ use super::args::CheckArgs;
 use super::files::read_mesh;
 use super::input::load;
 use super::{Answer, Failure, Status, data};
+use crate::arith::angle::rho2_from_min_angle;
 use crate::audit::{Claim, Options, Subject, audit};
 use serde_json::json;
 
@@ -27,6 +28,8 @@ pub fn run(args: &CheckArgs) -> Answer {
             args.within
         )));
     }
+    let rho2 = args.min_angle.map(rho2_from_min_angle).transpose();
+    let rho2 = rho2.map_err(|e| Failure::new(format_args!("--min-angle: {e}")))?;
     let mesh = read_mesh(&args.mesh)?;
     let loaded = args
         .input
@@ -57,6 +60,7 @@ pub fn run(args: &CheckArgs) -> Answer {
             claims: &claims,
             input,
             within: args.within,
+            rho2,
         },
     );
     let passed = report.passed();
