@@ -98,6 +98,15 @@ pub(super) fn length2(a: Point2, b: Point2) -> Option<f64> {
     certified(l.hi, l.lo, 4.0 * U2 * size)
 }
 
+/// Twice the signed area, if no step of computing it rounds (triangles on a grid, whose areas tie).
+#[inline]
+pub(super) fn exact_cross([a, b, c]: Corners) -> Option<f64> {
+    let ((ex, ey), (fx, fy)) = (exact_edge(a, b)?, exact_edge(a, c)?);
+    let ((p, p_tail), (q, q_tail)) = (two_product(ex, fy), two_product(ey, fx));
+    let (cross, tail) = two_sum(p, -q);
+    (p_tail == 0.0 && q_tail == 0.0 && tail == 0.0).then_some(cross)
+}
+
 /// area/bound rounded once; `None` if this evaluation cannot tell.
 ///
 /// The cross product is off by 3 u^2 of its size, the remainder of the quotient rounds by 3 u^2 and its quotient by 3 u^2.

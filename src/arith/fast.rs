@@ -201,6 +201,12 @@ impl Kernel for FastKernel {
     }
 
     fn compare_area_ratio(t1: Corners, bound1: f64, t2: Corners, bound2: f64) -> Ordering {
+        if bound1 == bound2
+            && let (Some(a), Some(b)) = (construct::exact_cross(t1), construct::exact_cross(t2))
+            && let Some(order) = a.partial_cmp(&b)
+        {
+            return order;
+        }
         order(sign_of!(area_ratios(t1, bound1, t2, bound2)))
     }
 
