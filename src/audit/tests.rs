@@ -1,5 +1,8 @@
 //! Meshes that must pass and meshes that must not, each with the fault that it stands for.
 
+// Rows of tables are tuples of what a row says.
+#![allow(clippy::type_complexity)]
+
 use super::*;
 use crate::model::{Fill, Segment};
 
@@ -610,5 +613,46 @@ fn claimed_quality_is_exact() {
             expected,
             "{rho2:e}"
         );
+    }
+}
+
+/// Whether two triangles of grid points meet in a common vertex, a common edge, or not at all: their interiors are separated by the
+/// line of an edge of one of them, and no corner of one that is not shared lies in the other.
+fn meet_properly(p: &[(i64, i64)], s: [u32; 3], t: [u32; 3]) -> bool {
+    let turn = |a: u32, b: u32, c: u32| {
+        let [a, b, c] = [a, b, c].map(|v| p[v as usize]);
+        ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).signum()
+    };
+    let sides = |t: [u32; 3]| [(t[0], t[1], t[2]), (t[1], t[2], t[0]), (t[2], t[0], t[1])];
+    let separates = |s: [u32; 3], t: [u32; 3]| {
+        sides(s)
+            .iter()
+            .any(|&(a, b, c)| t.iter().all(|&v| turn(a, b, v) * turn(a, b, c) <= 0))
+    };
+    let holds = |t: [u32; 3], v: u32| {
+        sides(t)
+            .iter()
+            .all(|&(a, b, c)| turn(a, b, v) * turn(a, b, c) >= 0)
+    };
+    let apart = |s: [u32; 3], t: [u32; 3]| s.iter().all(|&v| t.contains(&v) || !holds(t, v));
+    (separates(s, t) || separates(t, s)) && apart(s, t) && apart(t, s)
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(20_000))]
+    #[test]
+    fn triangles_of_a_grid_by_definition(
+        triangles in proptest::collection::vec(proptest::array::uniform3(0u32..16), 1..6)
+    ) {
+        let grid: Vec<(i64, i64)> = (0..16).map(|i| (i % 4, i / 4)).collect();
+        let area = |[a, b, c]: [u32; 3]| {
+            let [a, b, c] = [a, b, c].map(|v| grid[v as usize]);
+            (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
+        };
+        let pairs = |i: usize| (0..i).all(|j| meet_properly(&grid, triangles[i], triangles[j]));
+        let expected = triangles.iter().all(|&t| area(t) != 0) && (0..triangles.len()).all(pairs);
+        let p: Vec<(f64, f64)> = grid.iter().map(|&(x, y)| (x as f64, y as f64)).collect();
+        let report = run(&p, &triangles, Claim::Valid);
+        proptest::prop_assert_eq!(report.verdict == Verdict::Holds, expected, "{:?}", report);
     }
 }
