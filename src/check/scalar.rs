@@ -50,6 +50,10 @@ pub trait Scalar:
 /// Unit roundoff u = 2^-53. Each operation adds its own rounding (u times the magnitude of the result, and an allowance for
 /// underflow) to what its arguments hand on. Errors are themselves computed with rounding, which loses a relative u a step;
 /// the factor 1 + 2^-20 at the comparison covers 2^30 steps. NaN and infinities fail every comparison, so they decide nothing.
+///
+/// An error of 0 means that the value is exact, and exactness is kept where it can be seen: on inputs with few digits equality is
+/// then decided here. A sum of exact values has a double as its error (two-sum); a product of two values of at most 26
+/// significant bits is exact, and a quotient or root is if multiplying it back gives the argument exactly.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounded {
     value: f64,
@@ -62,6 +66,10 @@ const U: f64 = f64::EPSILON;
 const SLACK: f64 = 1.0 + 1.0 / (1u64 << 20) as f64;
 /// Allowance for underflow of one operation.
 const TINY: f64 = 1e-300;
+/// Range of products in which nothing under- or overflows.
+const SAFE: std::ops::Range<f64> = 1e-280..1e280;
+/// The low 27 bits: zero in a double of at most 26 significant bits.
+const LONG: u64 = (1 << 27) - 1;
 
 impl Bounded {
     fn rounded(value: f64, error: f64) -> Self {
@@ -71,18 +79,41 @@ impl Bounded {
         }
     }
 
+    /// a b, if it is certain to be a double.
+    fn exact_product(a: f64, b: f64) -> Option<f64> {
+        let short = |x: f64| x.to_bits() & LONG == 0;
+        let product = a * b;
+        let exact = a == 0.0 || b == 0.0 || (short(a) && short(b) && SAFE.contains(&product.abs()));
+        exact.then_some(product)
+    }
+
+    fn is_exact(self) -> bool {
+        self.error == 0.0
+    }
+
     /// A number not above the true value.
     pub fn low(&self) -> f64 {
-        (self.value - self.error * SLACK).next_down()
+        if self.is_exact() {
+            self.value
+        } else {
+            (self.value - self.error * SLACK).next_down()
+        }
     }
 
     /// A number not below the true value.
     pub fn high(&self) -> f64 {
-        (self.value + self.error * SLACK).next_up()
+        if self.is_exact() {
+            self.value
+        } else {
+            (self.value + self.error * SLACK).next_up()
+        }
     }
 
     /// Any value from low to high.
     pub fn between(low: f64, high: f64) -> Self {
+        if low == high {
+            return Self::of(low);
+        }
         let value = low + (high - low) / 2.0;
         Self::rounded(value, (high - low) * (1.0 + 4.0 * U))
     }
@@ -96,20 +127,35 @@ impl Bounded {
 impl Add for Bounded {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self::rounded(self.value + other.value, self.error + other.error)
+        let value = self.value + other.value;
+        if self.is_exact() && other.is_exact() {
+            let part = value - self.value;
+            let error = ((self.value - (value - part)) + (other.value - part)).abs();
+            return Bounded { value, error };
+        }
+        Self::rounded(value, self.error + other.error)
     }
 }
 
 impl Sub for Bounded {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        Self::rounded(self.value - other.value, self.error + other.error)
+        self + Bounded {
+            value: -other.value,
+            error: other.error,
+        }
     }
 }
 
 impl Mul for Bounded {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
+        if self.is_exact()
+            && other.is_exact()
+            && let Some(product) = Self::exact_product(self.value, other.value)
+        {
+            return Self::of(product);
+        }
         let error = self.value.abs() * other.error
             + other.value.abs() * self.error
             + self.error * other.error;
@@ -122,6 +168,12 @@ impl Div for Bounded {
     /// With q = a/b rounded: |a'/b' - q| <= (ea + |q| eb)/(|b| - eb), unknown unless eb < |b|/2.
     fn div(self, other: Self) -> Self {
         let q = self.value / other.value;
+        if self.is_exact()
+            && other.is_exact()
+            && Self::exact_product(q, other.value) == Some(self.value)
+        {
+            return Self::of(q);
+        }
         let room = other.value.abs() - other.error;
         let error = if other.error < 0.5 * other.value.abs() {
             (self.error + q.abs() * other.error) / room
@@ -150,8 +202,11 @@ impl Scalar for Bounded {
     /// |sqrt(x') - sqrt(x)| <= e/sqrt(x). Where e is not small against x: anything from 0 to the root of the upper bound.
     fn root(self) -> Self {
         let high = self.high();
+        let s = self.value.sqrt();
+        if self.is_exact() && Self::exact_product(s, s) == Some(self.value) {
+            return Self::of(s);
+        }
         if self.error < 0.5 * self.value {
-            let s = self.value.sqrt();
             Self::rounded(s, 2.0 * self.error / s)
         } else if high >= 0.0 {
             Self::between(0.0, high.sqrt().next_up())
@@ -161,6 +216,9 @@ impl Scalar for Bounded {
     }
 
     fn compare(&self, other: &Self) -> Option<Ordering> {
+        if self.is_exact() && other.is_exact() {
+            return self.value.partial_cmp(&other.value);
+        }
         let gap = self.value - other.value;
         let error = (self.error + other.error + U * gap.abs()) * SLACK;
         if gap > error {
@@ -425,12 +483,78 @@ mod tests {
     #[test]
     fn equality_is_left_to_the_rationals() {
         let sum = |a: f64, b: f64| Bounded::of(a) + Bounded::of(b);
-        assert_eq!(sum(0.5, 0.5).compare(&Bounded::of(1.0)), None);
+        assert_eq!(sum(0.1, 0.2).compare(&Bounded::of(0.1 + 0.2)), None);
         assert_eq!(sum(0.5, 0.5).at_most(&Bounded::of(1.0 + 1e-12)), Some(true));
         let exact = Enclosure::of(0.5) + Enclosure::of(0.5);
         assert_eq!(exact.compare(&Enclosure::of(1.0)), Some(Ordering::Equal));
         let root = Enclosure::of(2.0).root();
         assert_eq!(root.clone().squared().compare(&Enclosure::of(2.0)), None);
         assert_eq!(Enclosure::of(-2.0).root().compare(&root), None);
+    }
+
+    #[test]
+    fn exact_values_stay_exact_and_no_others_are_taken_for_exact() {
+        let of = Bounded::of;
+        assert_eq!((of(0.5) + of(0.5)).compare(&of(1.0)), Some(Ordering::Equal));
+        assert_eq!(
+            (of(3.0) * of(5.0) / of(3.0)).compare(&of(5.0)),
+            Some(Ordering::Equal)
+        );
+        assert_eq!(
+            of(9.0 / 4.0).root().compare(&of(1.5)),
+            Some(Ordering::Equal)
+        );
+        // each result is rounded: its double is not the value
+        let third = of(1.0) / of(3.0);
+        let long = of(1.0 + f64::EPSILON);
+        let tiny = of(1e-200) * of(1e-200);
+        for (inexact, double) in [
+            (third, 1.0 / 3.0),
+            (of(2.0).root(), 2f64.sqrt()),
+            (long * long, long.value * long.value),
+            (tiny, 0.0),
+        ] {
+            assert_eq!(inexact.compare(&of(double)), None, "{double}");
+            assert!(inexact.low() < double && double < inexact.high());
+        }
+        // overflow and 0/0 are unknown
+        for unknown in [
+            of(1e200) * of(1e200),
+            of(f64::MAX) + of(f64::MAX),
+            of(0.0) / of(0.0),
+            of(1.0) / of(0.0),
+            of(-1.0).root(),
+        ] {
+            assert_eq!(unknown.compare(&of(1.0)), None, "{unknown:?}");
+        }
+    }
+
+    #[test]
+    fn bounds_hold_over_random_expressions() {
+        // (a + b)(c - d)/e against rationals, from digits few and many
+        let mut state = 12345u64;
+        let mut draw = |bits: u32| {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            let m = (state >> (64 - bits)) as f64 / 2f64.powi(bits as i32);
+            m - 0.5
+        };
+        for i in 0..3000 {
+            let bits = [4, 12, 26, 27, 53][i % 5];
+            let x: [f64; 5] = std::array::from_fn(|_| draw(bits));
+            if x[4] == 0.0 {
+                continue;
+            }
+            fn formula<N: Scalar>([a, b, c, d, e]: [f64; 5]) -> N {
+                let v = (N::of(a) + N::of(b)) * (N::of(c) - N::of(d)) / N::of(e);
+                v.clone().squared().root() - v.max(N::of(0.0))
+            }
+            let (fast, slow) = (formula::<Bounded>(x), formula::<Enclosure>(x));
+            assert!(
+                Rational::of(fast.low()) <= slow.high && slow.low <= Rational::of(fast.high()),
+                "{x:?}"
+            );
+        }
     }
 }
