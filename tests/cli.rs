@@ -324,6 +324,7 @@ fn wrong_usage() {
         "mesh LAKE --choice center --choice-a random",
         "mesh LAKE -o lake.txt",
         "mesh LAKE --trace lake.vtu",
+        "mesh LAKE --max-seconds nan",
         "mesh LAKE -o no/such/folder/lake.vtu",
         "triangulate LAKE --weights",
         "verify missing.obt",
@@ -339,6 +340,25 @@ fn wrong_usage() {
     assert!(names(&f).is_empty());
     expect(&f, "--help", 0);
     expect(&f, "--version", 0);
+}
+
+#[test]
+fn the_input_is_spared() {
+    let f = folder("spared");
+    fs::copy(LAKE, f.join("lake.poly")).unwrap();
+    let out = expect(&f, "mesh lake.poly -o ./lake.poly", 2);
+    assert!(text(&out.stderr).contains("belongs to the input"));
+    assert_eq!(
+        fs::read(f.join("lake.poly")).unwrap(),
+        fs::read(LAKE).unwrap()
+    );
+    // Its vertices are its own, so that .node and .ele of the same name are free, again and again.
+    expect(&f, "mesh lake.poly -o lake.ele", 0);
+    expect(&f, "mesh lake.poly -o lake.ele", 0);
+    assert_eq!(names(&f), ["lake.ele", "lake.node", "lake.poly"]);
+    // A graph whose vertices stand in the .node file needs them.
+    expect(&f, "mesh lake.poly -o part.poly", 0);
+    expect(&f, "mesh part.poly -o part.ele", 2);
 }
 
 #[test]
@@ -363,6 +383,12 @@ fn both_forms_of_a_trace() {
     assert_eq!(
         (&v["record"], &v["field"]),
         (&0.into(), &"parameters.kappa".into())
+    );
+    assert!(
+        v["meaning"]
+            .as_str()
+            .unwrap()
+            .contains("asked for different things")
     );
 }
 

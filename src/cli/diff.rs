@@ -19,14 +19,24 @@ pub fn run(args: &DiffArgs) -> Answer {
         let value = match &divergence {
             None => serde_json::json!({"verdict": "equal"}),
             Some(d) => serde_json::json!({
-                "verdict": "diverged", "record": d.record, "event": d.event, "field": d.field, "first": d.first, "second": d.second,
+                "verdict": "diverged", "record": d.record, "event": d.event, "field": d.field, "first": d.first, "second": d.second, "meaning": d.meaning(),
             }),
         };
         data(value)?;
     } else {
         match &divergence {
             None => data("the traces have the same content")?,
-            Some(d) => data(d)?,
+            Some(d) => {
+                data(d)?;
+                data(format_args!("that is: {}", d.meaning()))?;
+                for (name, line) in ["first", "second"]
+                    .iter()
+                    .zip(&d.lines)
+                    .filter(|(_, line)| !line.is_empty())
+                {
+                    data(format_args!("{name:<6} {line}"))?;
+                }
+            }
         }
     }
     Ok(if divergence.is_none() {

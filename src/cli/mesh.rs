@@ -4,7 +4,7 @@ use super::args::{KernelName, MeshArgs, OutArgs, RunArgs, TriangulateArgs};
 use super::convert::trace_format;
 use super::files::Staged;
 use super::input::{Loaded, load, load_examined};
-use super::outputs::{check_names, stage};
+use super::outputs::{spare_input, stage};
 use super::parameters::parameters;
 use super::report::{self, Quality};
 use super::watch::{Limit, Watched, catch_interrupts};
@@ -58,7 +58,12 @@ pub fn triangulate(args: &TriangulateArgs) -> Answer {
 }
 
 fn perform(path: &Path, fill: Option<Fill>, task: &Task, how: &RunArgs, out: &OutArgs) -> Answer {
-    check_names(&out.output)?;
+    spare_input(&out.output, path)?;
+    if how.max_seconds.is_some_and(|s| s.is_nan() || s < 0.0) {
+        return Err(Failure::new(
+            "--max-seconds: must be a number of seconds, 0 or more",
+        ));
+    }
     let format =
         match &out.trace {
             None => None,

@@ -2,8 +2,9 @@
 
 use super::Failure;
 use super::files::Staged;
-use crate::io::{Format, write_mesh};
+use crate::io::{Format, poly_wants_node, write_mesh};
 use crate::model::{Mesh2, Pslg};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The files of a mesh under one name: more than one where the format needs them. Errors: no mesh is written under such a name.
@@ -19,17 +20,37 @@ fn files(path: &Path) -> Result<&'static [Format], Failure> {
 
 /// Refuses names that `stage` would refuse; to be asked before a long run.
 pub fn check_names(paths: &[PathBuf]) -> Result<(), Failure> {
-    paths.iter().try_for_each(|path| files(path).map(drop))
+    places(paths).map(drop)
 }
 
-/// Writes a mesh under each name, and says which files that are.
-pub fn stage(
-    paths: &[PathBuf],
-    mesh: &Mesh2,
-    domain: Option<&Pslg>,
-    staged: &mut Staged,
-) -> Result<Vec<PathBuf>, Failure> {
-    let mut places: Vec<(PathBuf, Format)> = Vec::new();
+/// Refuses to write over the file that is read, or over the vertices that go with it.
+pub fn spare_input(paths: &[PathBuf], input: &Path) -> Result<(), Failure> {
+    let borrows = Format::of(input) == Some(Format::Poly)
+        && fs::read(input).is_ok_and(|bytes| poly_wants_node(&bytes));
+    let own = [
+        Some(input.to_path_buf()),
+        borrows.then(|| input.with_extension("node")),
+    ];
+    // Files that do not exist are not in danger.
+    let own: Vec<PathBuf> = own
+        .into_iter()
+        .flatten()
+        .filter_map(|path| path.canonicalize().ok())
+        .collect();
+    for (place, _) in places(paths)? {
+        if place.canonicalize().is_ok_and(|place| own.contains(&place)) {
+            return Err(Failure::at(
+                &place,
+                "would be written over, and belongs to the input; give another name",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Every file to be written, once.
+fn places(paths: &[PathBuf]) -> Result<Vec<(PathBuf, Format)>, Failure> {
+    let mut places = Vec::new();
     for path in paths {
         for &format in files(path)? {
             let own = Format::of(path) == Some(format);
@@ -45,6 +66,17 @@ pub fn stage(
     }
     places.sort();
     places.dedup();
+    Ok(places)
+}
+
+/// Writes a mesh under each name, and says which files that are.
+pub fn stage(
+    paths: &[PathBuf],
+    mesh: &Mesh2,
+    domain: Option<&Pslg>,
+    staged: &mut Staged,
+) -> Result<Vec<PathBuf>, Failure> {
+    let places = places(paths)?;
     for (place, format) in &places {
         let bytes = write_mesh(mesh, *format, domain)
             .ok_or_else(|| Failure::at(place, "no format of meshes"))?;

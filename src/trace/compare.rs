@@ -20,6 +20,49 @@ pub struct Divergence {
     pub first: String,
     /// What the second has there.
     pub second: String,
+    /// Both records as lines of the text form, without line feeds; empty for a trace that has ended.
+    pub lines: [String; 2],
+}
+
+impl Divergence {
+    /// What a difference in this field says of the two runs, in words.
+    pub fn meaning(&self) -> &'static str {
+        let top = self.field.split(['.', '[']).next().unwrap_or("");
+        let deep = self
+            .field
+            .strip_prefix("why.")
+            .map(|f| f.split(['.', '[']).next().unwrap_or(""));
+        match (top, deep) {
+            ("", _) => "one run does something else altogether, or has ended",
+            ("format" | "version" | "algorithm" | "parameters" | "level" | "fill", _) => {
+                "the runs were asked for different things, or promise different things"
+            }
+            (
+                "vertex" | "segment" | "hole" | "region" | "marker" | "attributes" | "attribute"
+                | "toggles" | "max_area",
+                _,
+            ) if self.event.is_none() => "the inputs differ",
+            ("start" | "triangle", _) => {
+                "the initial triangulations differ: a predicate or a tie was decided differently"
+            }
+            ("why", Some("t" | "cause")) | ("t" | "cause" | "h", _) => {
+                "another triangle was treated: the queues differ, or what is bad"
+            }
+            ("why", Some("type" | "parent")) => {
+                "the same place was reached for another reason: visibility or encroachment differs"
+            }
+            ("why", Some("s")) => "another subsegment is in the way: the walk differs",
+            ("why", Some("a")) | ("p", _) => {
+                "the point was constructed differently: a choice, or its rounding"
+            }
+            ("why", _) => "the reasons of the step differ",
+            ("destroyed" | "created" | "id", _) => {
+                "the same step changes other triangles: a predicate or a tie was decided differently"
+            }
+            ("reason" | "apex", _) => "the same triangle is left for another reason",
+            _ => "the ends differ",
+        }
+    }
 }
 
 impl std::fmt::Display for Divergence {
@@ -139,15 +182,15 @@ fn locate(
     second: Option<&Record>,
     state: &State,
 ) -> Divergence {
-    let json = |record: Option<&Record>| {
-        record.map(|record| {
-            let mut line = String::new();
-            text::encode(record, state, &mut line);
-            // Our own encoder writes JSON.
-            serde_json::from_str::<Value>(&line).expect("a line of the text form")
-        })
-    };
-    let (a, b) = (json(first), json(second));
+    let lines = [first, second].map(|record| {
+        let mut line = String::new();
+        record
+            .iter()
+            .for_each(|record| text::encode(record, state, &mut line));
+        line.trim_end().to_string()
+    });
+    // Our own encoder writes JSON; an ended trace has no line.
+    let [a, b] = [&lines[0], &lines[1]].map(|line| serde_json::from_str::<Value>(line).ok());
     let mut path = String::new();
     let (x, y) = descend(a.as_ref(), b.as_ref(), &mut path);
     let show = |v: Option<&Value>| v.map_or_else(|| "nothing".to_string(), Value::to_string);
@@ -158,6 +201,7 @@ fn locate(
         field: path,
         first: show(x),
         second: show(y),
+        lines,
     }
 }
 
