@@ -202,7 +202,7 @@ fn an_interrupt_stops_a_run_with_its_files() {
             "--max-area",
             "1e-4",
             "-o",
-            "l.off",
+            "l.vtu",
             "--trace",
             "l.obt",
         ])
@@ -230,9 +230,9 @@ fn an_interrupt_stops_a_run_with_its_files() {
     );
     std::io::copy(&mut talk, &mut std::io::sink()).unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(3));
-    assert_eq!(names(&f), ["l.obt", "l.off"]);
+    assert_eq!(names(&f), ["l.obt", "l.vtu"]);
     expect(&f, "verify l.obt", 0);
-    expect(&f, "check l.off", 0);
+    expect(&f, "check l.vtu", 0);
 }
 
 #[test]

@@ -101,10 +101,10 @@ impl Queue {
 
     fn precedes(&self, a: &Entry, b: &Entry) -> bool {
         let order = match (self.order, a.badness) {
-            (QueueOrder::Fifo, _) => a.birth.cmp(&b.birth),
             (QueueOrder::ShortestEdge, Badness::Skinny) => ordering(sign_of!(length(a, b))),
             (QueueOrder::WorstFirst, Badness::Skinny) => ordering(sign_of!(ratio(a, b))),
-            _ => ordering(sign_of!(relative_area(a, b))),
+            (QueueOrder::WorstFirst, _) => ordering(sign_of!(relative_area(a, b))),
+            (QueueOrder::Fifo | QueueOrder::ShortestEdge, _) => a.birth.cmp(&b.birth),
         };
         order.then(a.sorted.cmp(&b.sorted)).is_lt()
     }
