@@ -2,6 +2,8 @@
 #![forbid(unsafe_code)]
 
 pub mod arith;
+#[cfg(all(feature = "exact", feature = "generators"))]
+pub mod attack;
 pub mod audit;
 pub mod check;
 pub mod cli;

@@ -1,0 +1,22 @@
+//! Top floor, beside the command line: what a fuzzer throws at the library, and what must hold whatever it throws.
+//!
+//! Problem: the promises of the library are for all inputs, and a test chosen by hand visits those its author thought of. Idea: each promise
+//! is a *case*, a value decoded from arbitrary bytes with a method `run` that asserts it; the targets of `fuzz/` are one line each,
+//! and the ordinary tests replay their corpora. Cases draw from `generators`, so that mutated bytes stay ties, near-ties and changes of scale.
+//!
+//! - `KernelCase`: every method of the fast kernel gives the bits of the exact one.
+//! - `CdtCase`: a triangulation under insertions, splits, deletions and rollbacks equals a fresh build and the definition.
+//! - `GcdrCase`: both kernels write the same trace, the strict checker accepts it, both forms of it read back.
+//! - `MutatedTraceCase`: of a true trace with one record changed, or with bytes changed, the strict checker accepts none.
+//! - `readers`: any bytes are read or refused; what was read, written, and read again is the same.
+
+mod cdt;
+mod kernels;
+mod mutations;
+pub mod readers;
+mod refinement;
+
+pub use cdt::CdtCase;
+pub use kernels::KernelCase;
+pub use mutations::MutatedTraceCase;
+pub use refinement::GcdrCase;
