@@ -263,13 +263,13 @@ impl Subject {
         mesh.constrain(&segments)
             .unwrap_or_else(|e| panic!("{e} of {case:?}"));
         let mut carved = case.carved.clone();
-        if let Some(holes) = &mut carved {
-            if mesh.carve(Fill::Seeds, &[], holes, &[]).is_err() {
-                holes.clear();
-                // The hull is closed and encloses a triangle.
-                mesh.carve(Fill::Seeds, &[], &[], &[])
-                    .unwrap_or_else(|e| panic!("{e} of {case:?}"));
-            }
+        if let Some(holes) = &mut carved
+            && mesh.carve(Fill::Seeds, &[], holes, &[]).is_err()
+        {
+            holes.clear();
+            // The hull is closed and encloses a triangle.
+            mesh.carve(Fill::Seeds, &[], &[], &[])
+                .unwrap_or_else(|e| panic!("{e} of {case:?}"));
         }
         Some(Subject {
             free: vec![false; case.points.len()],
