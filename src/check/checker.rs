@@ -52,7 +52,7 @@ pub(super) struct State<'a> {
 }
 
 /// Takes a trace record by record. Memory: the mesh.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Checker {
     options: Options,
     stage: Stage,

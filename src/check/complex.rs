@@ -293,4 +293,10 @@ impl Complex {
         let e = self.find_edge(a, b)?;
         (self.apex(e) == c).then(|| triangle_of(e))
     }
+
+    /// Marks a vertex as deleted; its triangles are gone.
+    pub fn delete_vertex(&mut self, v: u32) {
+        self.vertices[v as usize].kind = Kind::Deleted;
+        self.vertices[v as usize].star = NONE;
+    }
 }

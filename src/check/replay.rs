@@ -943,7 +943,7 @@ impl Replay {
             }
         }
         self.link_filling()?;
-        self.mesh.vertices[w.vertex as usize].kind = Kind::Deleted;
+        self.mesh.delete_vertex(w.vertex);
         self.tally.removed += 1;
         let created = self.created.len() - (w.end - w.start);
         for i in created..self.created.len() {

@@ -119,8 +119,12 @@ impl Strict {
                 ..
             } => {
                 self.check_point(replay, self.type_a(replay, ids), *a)?;
+                let ends = s.map(|v| v.0);
+                ensure(replay.find_inside(ends).is_some(), Rule::S1, || {
+                    ("an edge of the mesh", format!("{ends:?}"))
+                })?;
                 let type_c = matches!(kind, SplitKind::C { .. });
-                self.check_point(replay, self.on_segment(replay, s.map(|v| v.0), type_c), *p)
+                self.check_point(replay, self.on_segment(replay, ends, type_c), *p)
             }
             Event::Remove { .. } => Ok(()),
         }
