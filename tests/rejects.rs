@@ -33,7 +33,7 @@ fn records(pslg: &Pslg, params: &GcdrParameters, max_steps: u64) -> Option<Vec<R
 
 fn parameters(k: usize) -> GcdrParameters {
     let rho2 = rho2_from_min_angle([20.0, 25.0, 30.0][k % 3]).expect("angles in range");
-    let offcenter = k % 2 == 0;
+    let offcenter = k.is_multiple_of(2);
     GcdrParameters {
         rho2,
         d1: 1.0,
@@ -58,7 +58,7 @@ fn parameters(k: usize) -> GcdrParameters {
         small_angles: SmallAngles::Shells,
         max_area: (k % 4 == 1).then_some(0.02),
         size_function: false,
-        max_splits: (k % 5 == 0).then_some(2),
+        max_splits: k.is_multiple_of(5).then_some(2),
     }
 }
 
@@ -145,7 +145,7 @@ fn changes(event: &Event, vertices: u32) -> Vec<(&'static str, Event)> {
                 }
                 add("insert destroyed less", &|e| {
                     if let Event::Insert { destroyed, .. } = e {
-                        drop(destroyed.remove(i))
+                        let _ = destroyed.remove(i);
                     }
                 });
                 add("insert destroyed rotated", &|e| {
@@ -165,12 +165,14 @@ fn changes(event: &Event, vertices: u32) -> Vec<(&'static str, Event)> {
                 }
             });
             for cause in causes {
-                add("insert cause", &|e| match e {
-                    Event::Insert {
+                add("insert cause", &|e| {
+                    if let Event::Insert {
                         why: Why::Free { cause: c } | Why::Split { cause: c, .. },
                         ..
-                    } => *c = cause,
-                    _ => {}
+                    } = e
+                    {
+                        *c = cause
+                    }
                 });
             }
             if let Why::Split { .. } = why {
@@ -278,7 +280,7 @@ fn changes(event: &Event, vertices: u32) -> Vec<(&'static str, Event)> {
                 }
                 add("remove created less", &|e| {
                     if let Event::Remove { created, .. } = e {
-                        drop(created.remove(i))
+                        let _ = created.remove(i);
                     }
                 });
                 add("remove created order", &|e| {

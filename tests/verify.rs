@@ -75,9 +75,9 @@ fn parameters(k: usize) -> GcdrParameters {
         } else {
             SmallAngles::Shells
         },
-        max_area: (k % 6 == 0).then_some(0.01),
+        max_area: k.is_multiple_of(6).then_some(0.01),
         size_function: false,
-        max_splits: (k % 10 == 0).then_some(3),
+        max_splits: k.is_multiple_of(10).then_some(3),
     }
 }
 

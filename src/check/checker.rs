@@ -356,14 +356,13 @@ impl Checker {
             reason: SkipReason::Resolution,
             ..
         } = event
+            && !self.options.strict
         {
-            if !self.options.strict {
-                self.unchecked.push(Unchecked {
-                    rule: Rule::Skip,
-                    reason: "why a point cannot be represented is proved by strict verification",
-                });
-                self.unchecked.dedup();
-            }
+            self.unchecked.push(Unchecked {
+                rule: Rule::Skip,
+                reason: "why a point cannot be represented is proved by strict verification",
+            });
+            self.unchecked.dedup();
         }
         if let Some(strict) = &mut self.strict {
             strict.before(replay, event)?;

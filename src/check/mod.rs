@@ -10,6 +10,7 @@
 //! | `complex`, `sight` | triangles and links; who sees what |
 //! | `start` | the initial triangulation and the region |
 //! | `replay` | one function per kind of event |
+//! | `surgery` | cavities, fans, fillings |
 //! | `rows` | the inequalities of the theory, `docs/gcdr.md` |
 //! | `strict` | the choices: order, points, skips |
 //! | `promise` | the level that parameters and input allow |
@@ -32,6 +33,7 @@ mod snapshot;
 pub mod spacing;
 mod start;
 mod strict;
+mod surgery;
 mod value;
 mod verdict;
 

@@ -4,10 +4,10 @@
 //! the list in the trace. That the new triangles tile the cavity: the cavity is a tree of triangles (edges on its rim = triangles + 2, less one
 //! for each side of a split subsegment), and all new triangles are positively oriented, so the rim winds around p; it does so once, because the cavity covers no point twice.
 
-use super::complex::{Complex, Facts, Kind, NONE, canonical, next, numbers, previous, triangle_of};
+use super::complex::{Complex, Kind, NONE, canonical, next, numbers, previous};
 use super::condition::{
-    compare_lengths, exceeds_area, exceeds_radius, in_circle, in_conflict, in_diametral_disk,
-    is_skinny, orient, shortest_edge,
+    compare_lengths, exceeds_area, exceeds_radius, in_circle, in_diametral_disk, is_skinny,
+    shortest_edge,
 };
 use super::rows::{self, Deltas, Regions};
 use super::sight::{Aim, Arrival, Crossing, Search, walk};
@@ -48,21 +48,21 @@ impl Scale {
 
 /// An edge of a cavity's rim, seen from the cavity.
 #[derive(Clone, Copy, Debug)]
-struct Rim {
-    from: u32,
-    to: u32,
+pub(super) struct Rim {
+    pub(super) from: u32,
+    pub(super) to: u32,
     /// The half-edge outside.
-    outer: u32,
-    segment: u32,
+    pub(super) outer: u32,
+    pub(super) segment: u32,
 }
 
 /// A removal that waits for its split: the vertex and its triangles in `Replay::filling`.
 #[derive(Clone, Copy, Debug)]
-struct Waiting {
-    vertex: u32,
-    event: u64,
-    start: usize,
-    end: usize,
+pub(super) struct Waiting {
+    pub(super) vertex: u32,
+    pub(super) event: u64,
+    pub(super) start: usize,
+    pub(super) end: usize,
 }
 
 /// A split as the trace states it, places scaled.
@@ -115,13 +115,13 @@ pub struct Replay {
     pub created: Vec<u32>,
     /// Searches.
     pub search: Search,
-    destroyed: Vec<u32>,
-    rim: Vec<Rim>,
-    stack: Vec<u32>,
+    pub(super) destroyed: Vec<u32>,
+    pub(super) rim: Vec<Rim>,
+    pub(super) stack: Vec<u32>,
     waiting: Vec<Waiting>,
-    filling: Vec<[u32; 3]>,
+    pub(super) filling: Vec<[u32; 3]>,
     expected_removals: Vec<u32>,
-    links: Vec<(u32, u32, u32, u32)>,
+    pub(super) links: Vec<super::surgery::Link>,
 }
 
 impl Replay {
@@ -364,10 +364,12 @@ impl Replay {
         let (x, y) = (self.mesh.origin(e), self.mesh.target(e));
         let rung = |v: u32| self.rungs[v as usize].filter(|r| r.0 == apex);
         let on = |v: u32| self.mesh.vertices[v as usize].segment();
-        if let (Some(k), Some(l), Some(a), Some(b)) = (rung(x), rung(y), on(x), on(y)) {
-            if k == l && a != b && self.angle_below_60(apex, a, b) {
-                return true;
-            }
+        if let (Some(k), Some(l), Some(a), Some(b)) = (rung(x), rung(y), on(x), on(y))
+            && k == l
+            && a != b
+            && self.angle_below_60(apex, a, b)
+        {
+            return true;
         }
         let sides = [next(e), previous(e)].map(|e| self.mesh.segment(e));
         self.mesh.apex(e) == apex && !sides.contains(&NONE) && sides[0] != sides[1]
@@ -677,360 +679,10 @@ impl Replay {
             .filter(inside)
             .or_else(|| self.mesh.find_edge(v, u).filter(inside))
     }
-
-    // Surgery.
-
-    ///        c                 c
-    ///      /   \             / | \
-    ///     x     y    --->   x--p--y     for every edge xy of the cavity's rim
-    fn fan(&mut self, p: u32, rim: std::ops::Range<usize>, region: u32) {
-        let facts = Facts {
-            birth: birth(self.event),
-            region,
-            outside: false,
-            skipped_skinny: false,
-            skipped_oversized: false,
-        };
-        let mut before = NONE;
-        for i in rim {
-            let Rim {
-                from,
-                to,
-                outer,
-                segment,
-            } = self.rim[i];
-            let t = self.mesh.add([from, to, p], facts);
-            self.mesh.join(4 * t, outer, segment);
-            if before != NONE {
-                self.mesh.join(4 * before + 1, 4 * t + 2, NONE);
-            }
-            self.created.push(t);
-            before = t;
-        }
-    }
-
-    fn split_edge(&mut self, split: &Split, destroyed: &[Triangle]) -> Checked<u32> {
-        let [u, v] = split.ends;
-        let find = |mesh: &Complex, a, b| mesh.find_edge(a, b).unwrap_or(NONE);
-        let sides = [find(&self.mesh, u, v), find(&self.mesh, v, u)];
-        let segment = sides
-            .iter()
-            .find(|&&e| e != NONE)
-            .map_or(NONE, |&e| self.mesh.segment(e));
-        ensure(segment != NONE, Rule::Segment, || {
-            ("a subsegment", format!("({u}, {v})"))
-        })?;
-        self.begin_flood();
-        let mut rims = [0..0, 0..0];
-        let mut regions = [NONE; 2];
-        for (i, &e) in sides.iter().enumerate() {
-            if let Some(t) = self.mesh.inside(e) {
-                // Else the rounded p is so far off s that the edge from it to the apex is not Delaunay.
-                let bulges = in_conflict(self.mesh.places(t), split.p);
-                ensure(bulges, Rule::Delaunay, || {
-                    (
-                        "a point in conflict with the triangles at its subsegment",
-                        format!("{:?}", split.p),
-                    )
-                })?;
-                let (start, triangles) = (self.rim.len(), self.destroyed.len());
-                regions[i] = self.mesh.facts(t).region;
-                self.flood_root(t, &[next(e), previous(e)], split.p);
-                rims[i] = start..self.rim.len();
-                let tree = rims[i].len() == self.destroyed.len() - triangles + 1;
-                ensure(tree, Rule::Star, || {
-                    ("a cavity that encloses no vertex", "one that does")
-                })?;
-            }
-        }
-        self.compare_flood(destroyed)?;
-        self.check_positive(split.p)?;
-        let kind = match split.kind {
-            SplitKind::B => Kind::B(segment),
-            SplitKind::C { .. } => Kind::C(segment),
-        };
-        let p = self.mesh.add_vertex(split.p, kind);
-        self.clear_cavity();
-        // Half-edges at p on each side: from its first end to p, and from p to its other end.
-        let mut halves = [[NONE; 2]; 2];
-        for i in 0..2 {
-            if !rims[i].is_empty() {
-                let start = self.created.len();
-                self.fan(p, rims[i].clone(), regions[i]);
-                halves[i] = [
-                    4 * self.created[self.created.len() - 1] + 1,
-                    4 * self.created[start] + 2,
-                ];
-            } else if sides[i] != NONE {
-                halves[i] = self.split_outside(sides[i], p);
-            }
-        }
-        self.mesh.join(halves[0][0], halves[1][1], segment);
-        self.mesh.join(halves[0][1], halves[1][0], segment);
-        self.measure(p);
-        Ok(p)
-    }
-
-    /// Splits a triangle outside the region, which only holds stars together: (u, v, a) into (u, p, a), (p, v, a).
-    fn split_outside(&mut self, e: u32, p: u32) -> [u32; 2] {
-        let t = triangle_of(e);
-        let (u, v, a) = (self.mesh.origin(e), self.mesh.target(e), self.mesh.apex(e));
-        let rim = [next(e), previous(e)].map(|e| (self.mesh.beyond(e), self.mesh.segment(e)));
-        let facts = *self.mesh.facts(t);
-        self.mesh.drop(t);
-        let (left, right) = (
-            self.mesh.add([u, p, a], facts),
-            self.mesh.add([p, v, a], facts),
-        );
-        self.mesh.join(4 * right + 1, rim[0].0, rim[0].1);
-        self.mesh.join(4 * left + 2, rim[1].0, rim[1].1);
-        self.mesh.join(4 * left + 1, 4 * right + 2, NONE);
-        [4 * left, 4 * right]
-    }
-
-    fn begin_flood(&mut self) {
-        self.search.fresh(&self.mesh);
-        self.destroyed.clear();
-        self.rim.clear();
-    }
-
-    /// Floods from t across the given edges, in the normative order; the rim comes out counterclockwise.
-    fn flood_root(&mut self, t: u32, edges: &[u32], p: Point2) {
-        self.search.mark(t);
-        self.destroyed.push(t);
-        self.stack.extend(edges.iter().rev());
-        while let Some(e) = self.stack.pop() {
-            let (outer, segment) = (self.mesh.beyond(e), self.mesh.segment(e));
-            if segment == NONE && outer != NONE {
-                let other = triangle_of(outer);
-                if self.search.is_marked(other) {
-                    continue;
-                }
-                if in_conflict(self.mesh.places(other), p) {
-                    self.search.mark(other);
-                    self.destroyed.push(other);
-                    self.stack.extend([previous(outer), next(outer)]);
-                    continue;
-                }
-            }
-            self.rim.push(Rim {
-                from: self.mesh.origin(e),
-                to: self.mesh.target(e),
-                outer,
-                segment,
-            });
-        }
-    }
-
-    fn compare_flood(&self, destroyed: &[Triangle]) -> Checked {
-        let own = || {
-            self.destroyed
-                .iter()
-                .map(|&t| canonical(self.mesh.corners(t)))
-        };
-        ensure(
-            own().eq(destroyed.iter().map(|&t| numbers(t))),
-            Rule::Flood,
-            || {
-                (
-                    format!("{:?}", own().collect::<Vec<_>>()),
-                    format!(
-                        "{:?}",
-                        destroyed.iter().map(|&t| numbers(t)).collect::<Vec<_>>()
-                    ),
-                )
-            },
-        )
-    }
-
-    /// The cavity is a tree of triangles, and its rim is seen from p.
-    fn check_star(&self, p: Point2, surplus: usize) -> Checked {
-        ensure(
-            self.rim.len() == self.destroyed.len() + surplus,
-            Rule::Star,
-            || {
-                (
-                    "a cavity that encloses no vertex",
-                    format!(
-                        "{} triangles, {} edges",
-                        self.destroyed.len(),
-                        self.rim.len()
-                    ),
-                )
-            },
-        )?;
-        self.check_positive(p)
-    }
-
-    fn check_positive(&self, p: Point2) -> Checked {
-        for rim in &self.rim {
-            let positive = orient(self.mesh.at(rim.from), self.mesh.at(rim.to), p).is_positive();
-            ensure(positive, Rule::Star, || {
-                (
-                    "counterclockwise new triangles",
-                    format!("({}, {}, {p:?})", rim.from, rim.to),
-                )
-            })?;
-        }
-        Ok(())
-    }
-
-    fn clear_cavity(&mut self) {
-        for &t in &self.destroyed {
-            self.mesh.drop(t);
-        }
-    }
-
-    /// Freezes R of a new vertex: the nearest vertex on the rim just left.
-    fn measure(&mut self, p: u32) {
-        let at = self.mesh.at(p);
-        let mut nearest = p;
-        for w in self.rim.iter().flat_map(|r| [r.from, r.to]) {
-            if w != nearest
-                && (nearest == p
-                    || compare_lengths(at, self.mesh.at(w), at, self.mesh.at(nearest))
-                        .is_negative())
-            {
-                nearest = w;
-            }
-        }
-        self.mesh.vertices[p as usize].nearest = nearest;
-    }
-
-    /// Deletes a free vertex; the listed triangles fill its star and are locally Delaunay.
-    fn remove(&mut self, w: Waiting) -> Checked {
-        self.rim.clear();
-        self.destroyed.clear();
-        for e in self.mesh.star(w.vertex) {
-            let (outer, segment) = (self.mesh.beyond(next(e)), self.mesh.segment(next(e)));
-            let closed = self.mesh.beyond(e) != NONE && self.mesh.segment(e) == NONE;
-            ensure(closed, Rule::Star, || {
-                (
-                    "a star of unconstrained edges",
-                    format!("vertex {}", w.vertex),
-                )
-            })?;
-            self.rim.push(Rim {
-                from: self.mesh.origin(next(e)),
-                to: self.mesh.origin(previous(e)),
-                outer,
-                segment,
-            });
-            self.destroyed.push(triangle_of(e));
-        }
-        let Some(&t) = self.destroyed.first() else {
-            return broken(Rule::Star, "a star", "none");
-        };
-        let facts = Facts {
-            birth: birth(self.event),
-            skipped_skinny: false,
-            skipped_oversized: false,
-            ..*self.mesh.facts(t)
-        };
-        self.check_filling(w)?;
-        self.clear_cavity();
-        self.links.clear();
-        for (i, rim) in self.rim.iter().enumerate() {
-            // The outside of a rim edge runs the other way; `i` stands for it.
-            self.links.push((rim.to, rim.from, i as u32, 0));
-        }
-        for i in w.start..w.end {
-            let t = self.mesh.add(self.filling[i], facts);
-            self.created.push(t);
-            for e in 4 * t..4 * t + 3 {
-                self.links
-                    .push((self.mesh.origin(e), self.mesh.target(e), e, 1));
-            }
-        }
-        self.link_filling()?;
-        self.mesh.delete_vertex(w.vertex);
-        self.tally.removed += 1;
-        let created = self.created.len() - (w.end - w.start);
-        for i in created..self.created.len() {
-            self.check_locally_delaunay(self.created[i])?;
-        }
-        Ok(())
-    }
-
-    /// The filling: canonical, ascending, positive, of the star's rim, two triangles fewer than it has edges.
-    fn check_filling(&self, w: Waiting) -> Checked {
-        let filling = &self.filling[w.start..w.end];
-        ensure(filling.len() + 2 == self.rim.len(), Rule::Star, || {
-            (
-                format!("{} triangles", self.rim.len() - 2),
-                format!("{}", filling.len()),
-            )
-        })?;
-        ensure(
-            filling.windows(2).all(|p| p[0] < p[1]),
-            Rule::Canonical,
-            || ("ascending order", format!("{filling:?}")),
-        )?;
-        for &t in filling {
-            let known = t.iter().all(|&v| self.rim.iter().any(|r| r.from == v));
-            ensure(known, Rule::Star, || {
-                ("vertices of the star's rim", format!("{t:?}"))
-            })?;
-            ensure(canonical(t) == t, Rule::Canonical, || {
-                ("the smallest id first", format!("{t:?}"))
-            })?;
-            let [a, b, c] = t.map(|v| self.mesh.at(v));
-            ensure(orient(a, b, c).is_positive(), Rule::Star, || {
-                ("counterclockwise triangles", format!("{t:?}"))
-            })?;
-        }
-        Ok(())
-    }
-
-    /// Pairs every half-edge of the filling with another one or with the outside of the rim; none is left over.
-    fn link_filling(&mut self) -> Checked {
-        let key = |l: &(u32, u32, u32, u32)| (l.0.min(l.1), l.0.max(l.1), l.0 > l.1);
-        self.links.sort_unstable_by_key(key);
-        for i in (0..self.links.len()).step_by(2) {
-            let pair = (self.links[i], self.links.get(i + 1).copied());
-            let (a, Some(b)) = pair else {
-                return broken(Rule::Star, "edges in pairs", "one left over");
-            };
-            ensure((a.0, a.1) == (b.1, b.0), Rule::Star, || {
-                ("edges in pairs", format!("({}, {}) alone", a.0, a.1))
-            })?;
-            match ((a.2, a.3), (b.2, b.3)) {
-                ((e, 1), (other, 1)) => self.mesh.join(e, other, NONE),
-                ((e, 1), (i, _)) | ((i, _), (e, 1)) => {
-                    let rim = self.rim[i as usize];
-                    self.mesh.join(e, rim.outer, rim.segment);
-                }
-                _ => {
-                    return broken(
-                        Rule::Star,
-                        "a rim that the filling meets",
-                        format!("({}, {}) empty", a.0, a.1),
-                    );
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn check_locally_delaunay(&self, t: u32) -> Checked {
-        for e in 4 * t..4 * t + 3 {
-            let other = self.mesh.beyond(e);
-            let holds = self.mesh.segment(e) != NONE
-                || other == NONE
-                || !in_conflict(self.mesh.places(t), self.mesh.at(self.mesh.apex(other)));
-            ensure(holds, Rule::Delaunay, || {
-                (
-                    "a locally Delaunay edge",
-                    format!("edge ({}, {})", self.mesh.origin(e), self.mesh.target(e)),
-                )
-            })?;
-        }
-        Ok(())
-    }
 }
 
 /// The birth mark of what an event creates. Marks of runs beyond 2^32 events coincide, which only a strict check would notice.
-fn birth(event: u64) -> u32 {
+pub(super) fn birth(event: u64) -> u32 {
     u32::try_from(event + 1).unwrap_or(u32::MAX)
 }
 

@@ -253,7 +253,9 @@ impl Strict {
                 let from_u = match p.extreme.unwrap_or(VertexOfTriangle::First) {
                     VertexOfTriangle::First => true,
                     VertexOfTriangle::Newest => false,
-                    VertexOfTriangle::Seeded => draw::words(seed, self.step, 0, 1)[0] % 2 == 0,
+                    VertexOfTriangle::Seeded => {
+                        draw::words(seed, self.step, 0, 1)[0].is_multiple_of(2)
+                    }
                 };
                 let (w, other) = if from_u { (pu, pv) } else { (pv, pu) };
                 construct::in_interval(w, other, delta, -1.0)
