@@ -474,11 +474,20 @@ impl Subject {
         Ok((mesh, alive))
     }
 
+    /// Whether a vertex that was rounded off its segment may have swept over a vertex that the region does not see.
+    fn swept(&self) -> bool {
+        let mut all = (0..self.points.len() as u32).map(VertexId);
+        !self.exact && all.any(|v| !self.deleted[v.index()] && self.mesh.edge_from(v).is_none())
+    }
+
     fn compare(&self) {
+        if self.swept() {
+            return;
+        }
         let (fresh, alive) = match self.fresh() {
             Ok(built) => built,
             Err(e) => {
-                // A vertex that was rounded off its segment may have swept over a vertex or a seed that the region does not see.
+                // A vertex that was rounded off its segment may have swept over the seed of a hole.
                 assert!(!self.exact && self.carved.is_some(), "{e}");
                 return;
             }

@@ -228,7 +228,16 @@ fn kept(mesh: &Complex, domain: &Domain) -> Checked<Vec<bool>> {
         Fill::Parity => segment != NONE && domain.segments[segment as usize].toggles,
     };
     if domain.fill == Fill::Convex {
-        return Ok(vec![true; mesh.slot_count()]);
+        let all = mesh.triangles().flat_map(|t| 4 * t..4 * t + 3);
+        let mut open = all.filter(|&e| mesh.beyond(e) == NONE && mesh.segment(e) == NONE);
+        return match open.next() {
+            None => Ok(vec![true; mesh.slot_count()]),
+            Some(e) => broken(
+                Rule::Domain,
+                "segments on the whole hull",
+                format!("edge {:?} without one", [mesh.origin(e), mesh.target(e)]),
+            ),
+        };
     }
     // 0 outside, 1 inside; under `Seeds` nothing is crossed and what is never reached is inside.
     let mut side = vec![UNSEEN; mesh.slot_count()];

@@ -1,0 +1,69 @@
+//! What fuzzing found, one minimal case each. The first line of each says what was wrong.
+#![cfg(feature = "generators")]
+
+use orthoball::arith::FastKernel;
+use orthoball::check::{Options, Rule, Verdict, verify};
+use orthoball::io::parse_poly;
+use orthoball::model::{
+    Choice, DeletionPolicy, DiskChoice, Fill, GcdrParameters, QueueOrder, SmallAngles,
+};
+use orthoball::refine::{self, gcdr};
+use orthoball::trace::{Record, Recorder};
+
+/// Circumcenters and midpoints, 25 degrees.
+fn parameters() -> GcdrParameters {
+    GcdrParameters {
+        rho2: 1.4,
+        d1: 1.0,
+        d2: 1.0,
+        mu: 1.0,
+        choice_a: DiskChoice::Center,
+        choice_b: Choice::Center,
+        choice_c: Choice::Center,
+        kappa: None,
+        extreme: None,
+        seed: None,
+        order: QueueOrder::ShortestEdge,
+        deletion: DeletionPolicy::Segment,
+        small_angles: SmallAngles::Shells,
+        max_area: None,
+        size_function: false,
+        max_splits: None,
+    }
+}
+
+fn trace(poly: &str, parameters: &GcdrParameters) -> Vec<Record> {
+    let input = parse_poly(poly.as_bytes(), None).expect("a good file");
+    let mut recorder = Recorder::default();
+    gcdr::run::<FastKernel>(
+        &input.pslg,
+        parameters,
+        &mut refine::Options::default(),
+        &mut recorder,
+    )
+    .expect("a run");
+    recorder.0
+}
+
+fn rule(records: &[Record]) -> Option<Rule> {
+    let strict = Options {
+        strict: true,
+        digests: false,
+    };
+    match verify(records, strict) {
+        Verdict::Accepted { .. } => None,
+        Verdict::Rejected(rejection) => Some(rejection.rule),
+    }
+}
+
+/// The checker turned around a vertex of the hull for ever, out of the complex, where `convex` stood in a header and the hull was no segment.
+#[test]
+fn a_convex_fill_needs_segments_on_the_hull() {
+    let poly = "4 2\n1 0 0\n2 1 0\n3 0 1\n4 2 2\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n";
+    let mut records = trace(poly, &parameters());
+    assert_eq!(rule(&records), None);
+    if let Record::Header(header) = &mut records[0] {
+        header.fill = Fill::Convex;
+    }
+    assert_eq!(rule(&records), Some(Rule::Domain));
+}
