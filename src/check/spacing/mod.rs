@@ -533,7 +533,8 @@ fn exponent(x: f64) -> i32 {
     let biased = |x: f64| ((x.to_bits() >> 52) & 0x7ff) as i32 - 1022;
     match x {
         0.0 => 0,
-        x if x < f64::MIN_POSITIVE => biased(x * 2f64.powi(64)) - 64,
+        // 2^64, exactly
+        x if x < f64::MIN_POSITIVE => biased(x * 18_446_744_073_709_551_616.0) - 64,
         x => biased(x),
     }
 }
