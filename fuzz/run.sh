@@ -17,9 +17,11 @@ one() {
     local target=$1 seconds=$2 bin=$3
     case $target in read_*) seconds=$((seconds / 6)) ;; esac
     mkdir -p "fuzz/runs/$target" "fuzz/artifacts/$target" "fuzz/corpus/$target"
+    # Memory asked for and never touched counts too.
+    case $target in read_*) ulimit -v 1048576 ;; esac
     local log="fuzz/runs/$target.log" status=0
     nice "$bin/$target" "fuzz/runs/$target" "fuzz/corpus/$target" -max_total_time="$seconds" -max_len=4096 -timeout=60 \
-        -rss_limit_mb=2048 -malloc_limit_mb=256 -print_final_stats=1 -artifact_prefix="fuzz/artifacts/$target/" >"$log" 2>&1 || status=$?
+        -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="fuzz/artifacts/$target/" >"$log" 2>&1 || status=$?
     local executions
     executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
     if [ "$status" -eq 0 ]; then

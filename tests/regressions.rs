@@ -67,3 +67,21 @@ fn a_convex_fill_needs_segments_on_the_hull() {
     }
     assert_eq!(rule(&records), Some(Rule::Domain));
 }
+
+/// The checker took a second end for one, and a second start for a longer input; `Reader` refuses both, but traces need not come from files.
+#[test]
+fn header_start_and_end_come_once() {
+    let poly = "3 2\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n";
+    let records = trace(poly, &parameters());
+    for at in 0..records.len() {
+        let opens = matches!(
+            records[at],
+            Record::Header(_) | Record::Start { .. } | Record::End(_)
+        );
+        if opens {
+            let mut doubled = records.clone();
+            doubled.insert(at, records[at].clone());
+            assert_eq!(rule(&doubled), Some(Rule::Stream), "record {at}");
+        }
+    }
+}

@@ -2,7 +2,8 @@
 
 use crate::arith::angle::{kappa, rho2_from_min_angle};
 use crate::arith::{ExactKernel, FastKernel, Kernel, scale};
-use crate::check::{self, Verdict, verify};
+use crate::check::spacing::{Spacing, Violation};
+use crate::check::{self, Checker, Verdict, verify};
 use crate::domain::prepare;
 use crate::generators::{Bytes, Draw, PslgFamily, pslg};
 use crate::model::{
@@ -166,6 +167,33 @@ impl GcdrCase {
         records::<FastKernel>(&prepared.pslg, &self.parameters, self.steps).ok()
     }
 
+    /// Asserts that the plain triangulation is the same with both kernels, and accepted.
+    fn triangulate(&self, pslg: &Pslg) {
+        let whole = Pslg {
+            fill: Fill::Convex,
+            ..pslg.clone()
+        };
+        let (mut fast, mut exact) = (Recorder::default(), Recorder::default());
+        let ends = [
+            refine::triangulate::<FastKernel>(&whole, &mut fast),
+            refine::triangulate::<ExactKernel>(&whole, &mut exact),
+        ]
+        .map(|run| run.err().map(|e| e.to_string()));
+        assert_eq!(ends[0], ends[1], "{self:?}");
+        assert_eq!(fast.0, exact.0, "{self:?}");
+        if ends[0].is_none() {
+            let strict = check::Options {
+                strict: true,
+                digests: true,
+            };
+            let verdict = verify(&fast.0, strict);
+            assert!(
+                matches!(verdict, Verdict::Accepted { .. }),
+                "{verdict:?} of {self:?}"
+            );
+        }
+    }
+
     /// Asserts that both kernels find the same, that the strict checker accepts it whole, and that both forms of the trace give it back.
     pub fn run(&self) {
         let prepared = prepare::<FastKernel>(&self.pslg, &Lines::default());
@@ -175,6 +203,7 @@ impl GcdrCase {
         if prepared.has_errors() {
             return;
         }
+        self.triangulate(&prepared.pslg);
         let fast = records::<FastKernel>(&prepared.pslg, &self.parameters, self.steps);
         let exact = records::<ExactKernel>(&prepared.pslg, &self.parameters, self.steps);
         let (fast, exact) = match (fast, exact) {
@@ -202,6 +231,9 @@ impl GcdrCase {
                 }
             }
         }
+        if let Some(violation) = spacing_of(&fast) {
+            panic!("{violation:?} of {self:?}");
+        }
         for format in [Format::Text, Format::Binary] {
             let bytes = written(&fast, format);
             let back: std::result::Result<Vec<Record>, _> = Reader::new(&bytes[..]).collect();
@@ -215,6 +247,25 @@ impl GcdrCase {
             assert_eq!(back, fast, "{format:?} of {self:?}");
         }
     }
+}
+
+/// The first row of spacing that does not hold, of what the checker accepts of a trace.
+pub(super) fn spacing_of(records: &[Record]) -> Option<Violation> {
+    let mut checker = Checker::new(check::Options {
+        strict: false,
+        digests: false,
+    });
+    let mut spacing = Spacing::new();
+    for record in records {
+        if checker.push(record).is_err() {
+            return None;
+        }
+        if let Err(violation) = spacing.record(record) {
+            return Some(violation);
+        }
+    }
+    let (angle, edges) = (checker.smallest_angle(), checker.edges());
+    spacing.finish(angle, edges).err()
 }
 
 /// A trace in one of its forms.

@@ -176,6 +176,7 @@ impl Checker {
     fn take(&mut self, record: &Record) -> Checked {
         match record {
             Record::Header(header) => {
+                self.once(Stage::Vertices)?;
                 self.advance(Stage::Fresh, Stage::Vertices)?;
                 check_header(header)?;
                 self.domain.fill = header.fill;
@@ -221,6 +222,7 @@ impl Checker {
                 Ok(())
             }
             Record::Start { triangles } => {
+                self.once(Stage::Start)?;
                 self.advance(Stage::Vertices, Stage::Start)?;
                 self.announced = *triangles;
                 self.scale_input()?;
@@ -246,13 +248,14 @@ impl Checker {
                 Ok(())
             }
             Record::End(end) => {
+                self.once(Stage::Ended)?;
                 self.advance(Stage::Events, Stage::Ended)?;
                 self.end(end)
             }
         }
     }
 
-    /// Records stand in one order; `from` is the earliest stage in which this one may come.
+    /// Records stand in one order; `from` is the earliest stage in which this one may come. Header, start and end come once.
     fn advance(&mut self, from: Stage, to: Stage) -> Checked {
         ensure(from <= self.stage && self.stage <= to, Rule::Stream, || {
             (
@@ -260,13 +263,18 @@ impl Checker {
                 format!("{to:?} after {:?}", self.stage),
             )
         })?;
-        ensure(
-            !(from == Stage::Fresh && self.stage != Stage::Fresh),
-            Rule::Stream,
-            || ("one header", "another"),
-        )?;
         self.stage = to;
         Ok(())
+    }
+
+    /// That the stage a record opens is not yet open.
+    fn once(&self, opened: Stage) -> Checked {
+        ensure(self.stage < opened, Rule::Stream, || {
+            (
+                format!("one record that opens {opened:?}"),
+                "another".to_string(),
+            )
+        })
     }
 
     /// Finds the power of two, and brings the input to it.
@@ -323,6 +331,7 @@ impl Checker {
         else {
             return Ok(());
         };
+        start::check_bounded(&self.mesh)?;
         // `check_header` demands a level of every refinement.
         let level = level.unwrap_or(Level::Outside);
         let regions = Regions::new(parameters, level);

@@ -228,16 +228,7 @@ fn kept(mesh: &Complex, domain: &Domain) -> Checked<Vec<bool>> {
         Fill::Parity => segment != NONE && domain.segments[segment as usize].toggles,
     };
     if domain.fill == Fill::Convex {
-        let all = mesh.triangles().flat_map(|t| 4 * t..4 * t + 3);
-        let mut open = all.filter(|&e| mesh.beyond(e) == NONE && mesh.segment(e) == NONE);
-        return match open.next() {
-            None => Ok(vec![true; mesh.slot_count()]),
-            Some(e) => broken(
-                Rule::Domain,
-                "segments on the whole hull",
-                format!("edge {:?} without one", [mesh.origin(e), mesh.target(e)]),
-            ),
-        };
+        return Ok(vec![true; mesh.slot_count()]);
     }
     // 0 outside, 1 inside; under `Seeds` nothing is crossed and what is never reached is inside.
     let mut side = vec![UNSEEN; mesh.slot_count()];
@@ -271,6 +262,19 @@ fn kept(mesh: &Complex, domain: &Domain) -> Checked<Vec<bool>> {
         }
     }
     Ok(side.iter().map(|&s| s != 0).collect())
+}
+
+/// The region that is refined is bounded by segments. (Under `convex` the hull is; then its edges are segments of the domain.)
+pub fn check_bounded(mesh: &Complex) -> Checked {
+    let mut edges = mesh.triangles().flat_map(|t| 4 * t..4 * t + 3);
+    let open = edges.find(|&e| mesh.inside(mesh.beyond(e)).is_none() && mesh.segment(e) == NONE);
+    open.map_or(Ok(()), |e| {
+        broken(
+            Rule::Domain,
+            "a region bounded by segments",
+            format!("edge {:?}", [mesh.origin(e), mesh.target(e)]),
+        )
+    })
 }
 
 /// Calls `visit` for every triangle that no constrained edge separates from t.
