@@ -5,6 +5,7 @@ mod level;
 mod run;
 mod triangulate;
 
+pub use gcdr::everyday;
 pub use level::least_d2;
 pub use run::{Chooser, DiskRequest, IntervalRequest, Options, Run, RunError, Unmet};
 pub use triangulate::triangulate;

@@ -1,10 +1,10 @@
 //! The constrained Delaunay triangulation of an input as a run of its own: nothing is refined, the whole hull is kept.
 
-use super::gcdr::output::{mesh_of, write_domain};
+use super::gcdr::output::{canonical_triangles, mesh_of, write_domain};
 use super::{Run, RunError};
 use crate::arith::Kernel;
 use crate::domain::normalise;
-use crate::model::{Level, Lines, Pslg, Triangle, VertexKind, canonical_triangle};
+use crate::model::{Level, Lines, Pslg, VertexKind};
 use crate::trace::{Algorithm, Counts, End, Header, Outcome, Record, Sink, mesh_digest};
 use crate::triangulation::cdt2::Cdt2;
 
@@ -16,11 +16,7 @@ pub fn triangulate<K: Kernel>(pslg: &Pslg, sink: &mut dyn Sink) -> Result<Run, R
     let mut cdt = Cdt2::<K>::delaunay(points)?;
     let segments: Vec<_> = pslg.segments.iter().map(|s| s.ends).collect();
     cdt.constrain(&segments)?;
-    let mut start: Vec<Triangle> = cdt
-        .triangles()
-        .map(|t| canonical_triangle(cdt.vertices(t)))
-        .collect();
-    start.sort_unstable();
+    let start = canonical_triangles(&cdt);
     sink.record(&Record::Header(Header {
         algorithm: Algorithm::Delaunay,
         level: None,

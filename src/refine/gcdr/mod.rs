@@ -34,8 +34,9 @@ use crate::trace::{
 };
 use crate::triangulation::cdt2::{Cdt2, Change, HalfEdge, TriId, Walk};
 use choose::{Draws, ordered, type_a};
-use output::{add_hull, mesh_of, write_head};
-use params::{area_bound, validate};
+use output::{add_hull, canonical_triangles, mesh_of, write_head};
+pub use params::everyday;
+use params::{area_bounds, validate};
 use queue::{Bad, Queue};
 use region::{Stray, slackened};
 use split::Split;
@@ -65,7 +66,6 @@ struct Rung {
 struct Refiner<'a, 'o, K: Kernel> {
     cdt: Cdt2<K>,
     scale: Scale,
-    /// As given, but `max_area` is in normalised units.
     params: GcdrParameters,
     /// Area bounds by region label, normalised; `None`: no bound.
     area_bounds: Vec<Option<f64>>,
@@ -102,52 +102,29 @@ pub fn run<K: Kernel>(
     sink: &mut dyn Sink,
 ) -> Result<Run, RunError> {
     validate(params, options)?;
-    let (points, scale) = normalise(&pslg.points, &Lines::default()).map_err(RunError::Range)?;
-    let mut pslg = pslg.clone();
-    let mut cdt = Cdt2::<K>::delaunay(points)?;
-    if pslg.fill == Fill::Convex {
-        add_hull(&cdt, &mut pslg);
-    }
-    let segments: Vec<[VertexId; 2]> = pslg.segments.iter().map(|s| s.ends).collect();
-    cdt.constrain(&segments)?;
-    let mut start: Vec<Triangle> = cdt
-        .triangles()
-        .map(|t| canonical_triangle(cdt.vertices(t)))
-        .collect();
-    start.sort_unstable();
-    let toggles: Vec<bool> = pslg.segments.iter().map(|s| s.toggles).collect();
-    let inside = |p: &Point2| scale.to_normal(*p);
-    let holes: Vec<Point2> = pslg.holes.iter().map(inside).collect();
-    let seeds: Vec<Point2> = pslg.regions.iter().map(|r| inside(&r.seed)).collect();
-    cdt.carve(pslg.fill, &toggles, &holes, &seeds)?;
-
+    let Initial {
+        pslg,
+        scale,
+        cdt,
+        start,
+    } = Initial::<K>::of(pslg)?;
     let sectors = sectors_of(&cdt);
     let level = level_of(params, &sectors);
     write_head(&pslg, params, level, &start, sink)?;
-    let mut normal = params.clone();
-    normal.max_area = area_bound(params.max_area, scale)?;
-    let mut area_bounds = vec![normal.max_area];
-    for region in &pslg.regions {
-        let own = area_bound(region.max_area, scale)?;
-        area_bounds.push(match (own, normal.max_area) {
-            (Some(a), Some(b)) => Some(if a < b { a } else { b }),
-            (a, b) => a.or(b),
-        });
-    }
     let mut refiner = Refiner {
         kinds: vec![Kind::Input; cdt.vertex_count()],
-        splits: vec![0; segments.len()],
+        splits: vec![0; pslg.segments.len()],
+        segments: pslg.segments.iter().map(|s| s.ends).collect(),
+        area_bounds: area_bounds(&pslg, params, scale)?,
         cdt,
         scale,
-        area_bounds,
         sectors,
-        segments,
         options,
         sink,
         apexes: Vec::new(),
         skinny: Queue::new(params.order),
         oversized: Queue::new(params.order),
-        params: normal,
+        params: params.clone(),
         current: None,
         skipped: Vec::new(),
         stray: match level {
@@ -165,11 +142,46 @@ pub fn run<K: Kernel>(
     if params.small_angles == SmallAngles::Shells {
         refiner.find_apexes();
     }
-    let initial: Vec<(TriId, u32)> = refiner.cdt.triangles().map(|t| (t, 0)).collect();
-    refiner.fresh = initial;
+    refiner.fresh = refiner.cdt.triangles().map(|t| (t, 0)).collect();
     refiner.classify_fresh()?;
     let stop_reason = refiner.refine()?;
-    refiner.finish(&pslg, params, level, stop_reason)
+    refiner.finish(&pslg, level, stop_reason)
+}
+
+/// What a run starts from.
+struct Initial<K: Kernel> {
+    /// The domain; with `Fill::Convex` the edges of the hull are segments.
+    pslg: Pslg,
+    scale: Scale,
+    /// The constrained Delaunay triangulation of the region.
+    cdt: Cdt2<K>,
+    /// The triangles of that of the hull, canonical, ascending.
+    start: Vec<Triangle>,
+}
+
+impl<K: Kernel> Initial<K> {
+    fn of(pslg: &Pslg) -> Result<Self, RunError> {
+        let (points, scale) =
+            normalise(&pslg.points, &Lines::default()).map_err(RunError::Range)?;
+        let mut pslg = pslg.clone();
+        let mut cdt = Cdt2::<K>::delaunay(points)?;
+        if pslg.fill == Fill::Convex {
+            add_hull(&cdt, &mut pslg);
+        }
+        let segments: Vec<[VertexId; 2]> = pslg.segments.iter().map(|s| s.ends).collect();
+        cdt.constrain(&segments)?;
+        let start = canonical_triangles(&cdt);
+        let toggles: Vec<bool> = pslg.segments.iter().map(|s| s.toggles).collect();
+        let holes: Vec<Point2> = pslg.holes.iter().map(|&p| scale.to_normal(p)).collect();
+        let regions = pslg.regions.iter().map(|r| scale.to_normal(r.seed));
+        cdt.carve(pslg.fill, &toggles, &holes, &regions.collect::<Vec<_>>())?;
+        Ok(Initial {
+            pslg,
+            scale,
+            cdt,
+            start,
+        })
+    }
 }
 
 impl<K: Kernel> Refiner<'_, '_, K> {
@@ -430,13 +442,13 @@ impl<K: Kernel> Refiner<'_, '_, K> {
     fn finish(
         mut self,
         pslg: &Pslg,
-        params: &GcdrParameters,
         level: Level,
         stop_reason: Option<String>,
     ) -> Result<Run, RunError> {
         let level_effective = match self.stray {
             Stray::Exact => level,
             Stray::Rounded => {
+                let params = &self.params;
                 let [d1, d2, mu] = [params.d1, params.d2, params.mu].map(slackened);
                 level.min(level_of(
                     &GcdrParameters {

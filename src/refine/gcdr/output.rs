@@ -88,6 +88,16 @@ fn attributes_of(pslg: &Pslg, k: usize) -> Option<&[f64]> {
     pslg.attributes.get(k * per_point..(k + 1) * per_point)
 }
 
+/// The triangles, canonical, ascending.
+pub(in crate::refine) fn canonical_triangles<K: Kernel>(cdt: &Cdt2<K>) -> Vec<Triangle> {
+    let mut all: Vec<Triangle> = cdt
+        .triangles()
+        .map(|t| canonical_triangle(cdt.vertices(t)))
+        .collect();
+    all.sort_unstable();
+    all
+}
+
 /// Makes the edges of the convex hull segments (marker 1), in ascending order of their ends.
 pub(super) fn add_hull<K: Kernel>(cdt: &Cdt2<K>, pslg: &mut Pslg) {
     let mut known: Vec<[VertexId; 2]> = pslg

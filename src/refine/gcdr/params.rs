@@ -1,9 +1,39 @@
 //! Ranges of parameters and bounds.
 
+use crate::arith::angle::{AngleOutOfRange, kappa, rho2_from_min_angle};
 use crate::arith::scale;
 use crate::domain::Scale;
-use crate::model::{Choice, DiskChoice, GcdrParameters};
+use crate::model::{
+    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Pslg, QueueOrder, SmallAngles,
+};
 use crate::refine::{Options, RunError};
+
+/// Parameters for everyday use: all angles above `min_angle` degrees where the input allows it, with few triangles.
+///
+/// Unclamped off-centers, midpoints on segments, shortest edge first, shells at small input angles; no theorem is claimed
+/// (`Level::Outside`). What is to differ is written `GcdrParameters { max_area: Some(0.1), ..everyday(25.0)? }`.
+/// Up to 25 degrees every input known ends soon; above 30 a run may end by its budget only.
+pub fn everyday(min_angle: f64) -> Result<GcdrParameters, AngleOutOfRange> {
+    let rho2 = rho2_from_min_angle(min_angle)?;
+    Ok(GcdrParameters {
+        rho2,
+        d1: 1.0,
+        d2: 1.0,
+        mu: 1.0,
+        choice_a: DiskChoice::Offcenter,
+        choice_b: Choice::Center,
+        choice_c: Choice::Center,
+        kappa: Some(kappa(rho2)),
+        extreme: None,
+        seed: None,
+        order: QueueOrder::ShortestEdge,
+        deletion: DeletionPolicy::Segment,
+        small_angles: SmallAngles::Shells,
+        max_area: None,
+        size_function: false,
+        max_splits: None,
+    })
+}
 
 /// Refuses parameters outside their ranges.
 pub(super) fn validate(params: &GcdrParameters, options: &Options) -> Result<(), RunError> {
@@ -48,8 +78,25 @@ pub(super) fn validate(params: &GcdrParameters, options: &Options) -> Result<(),
     Ok(())
 }
 
+/// The area bound of each region label in normalised units: of no region, then of each seed.
+pub(super) fn area_bounds(
+    pslg: &Pslg,
+    params: &GcdrParameters,
+    scale: Scale,
+) -> Result<Vec<Option<f64>>, RunError> {
+    let everywhere = area_bound(params.max_area, scale)?;
+    let mut bounds = vec![everywhere];
+    for region in &pslg.regions {
+        bounds.push(match (area_bound(region.max_area, scale)?, everywhere) {
+            (Some(a), Some(b)) => Some(if a < b { a } else { b }),
+            (a, b) => a.or(b),
+        });
+    }
+    Ok(bounds)
+}
+
 /// An area bound in normalised units; no bound if it is too large to matter.
-pub(super) fn area_bound(area: Option<f64>, scale: Scale) -> Result<Option<f64>, RunError> {
+fn area_bound(area: Option<f64>, scale: Scale) -> Result<Option<f64>, RunError> {
     let Some(value) = area else { return Ok(None) };
     if value.is_nan() || value <= 0.0 {
         return Err(RunError::Parameter {
