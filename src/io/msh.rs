@@ -208,12 +208,15 @@ impl<'a> File<'a> {
             }
             Version::Four => {
                 let blocks = head.count("the number of blocks", 8, &self.rows)?;
+                let total = head.count("the number of nodes", 8, &self.rows)?;
+                let mut sum = 0;
                 for b in 0..blocks as u64 {
                     let mut block = self.rows.expect(Element::Nth("block of nodes", b + 1))?;
                     block.integer("the dimension")?;
                     block.integer("the entity")?;
                     block.integer("parametric")?;
                     let count = block.count("the number of nodes", 8, &self.rows)?;
+                    sum += count;
                     let mut tags = Vec::with_capacity(count);
                     for k in 0..count as u64 {
                         tags.push(
@@ -228,6 +231,7 @@ impl<'a> File<'a> {
                         self.node(tag, &mut row)?;
                     }
                 }
+                equal_totals(&head, total, sum)?;
             }
         }
         self.ids.sort_unstable();
@@ -275,6 +279,8 @@ impl<'a> File<'a> {
             }
             Version::Four => {
                 let blocks = head.count("the number of blocks", 8, &self.rows)?;
+                let total = head.count("the number of elements", 4, &self.rows)?;
+                let mut sum = 0;
                 for b in 0..blocks as u64 {
                     let mut block = self.rows.expect(Element::Nth("block of elements", b + 1))?;
                     let entity = (
@@ -283,6 +289,7 @@ impl<'a> File<'a> {
                     );
                     let kind = block.integer("the type")?;
                     let count = block.count("the number of elements", 4, &self.rows)?;
+                    sum += count;
                     let physical = self.physical.get(&entity).copied().unwrap_or(0);
                     for k in 0..count as u64 {
                         let mut row = self.rows.expect(Element::Nth("element", k + 1))?;
@@ -290,6 +297,7 @@ impl<'a> File<'a> {
                         self.element(tag, kind, physical, row)?;
                     }
                 }
+                equal_totals(&head, total, sum)?;
             }
         }
         self.section_end("Elements")
@@ -385,4 +393,13 @@ impl<'a> File<'a> {
         }
         mesh
     }
+}
+
+/// That the blocks of a section hold as many elements as its first row says.
+fn equal_totals(head: &Row, total: usize, sum: usize) -> Result<(), ReadError> {
+    if total == sum {
+        return Ok(());
+    }
+    let problem = format!("the total is {total}, but the blocks hold {sum}");
+    Err(head.fault(problem, "correct it; perhaps a part is missing"))
 }

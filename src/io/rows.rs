@@ -155,7 +155,7 @@ impl std::fmt::Display for Element {
 pub(super) struct Row<'a> {
     part: &'static str,
     pub(super) line: u32,
-    element: Element,
+    pub(super) element: Element,
     whole: &'a str,
     rest: &'a str,
 }

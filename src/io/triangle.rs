@@ -76,6 +76,8 @@ impl Nodes {
     fn vertex(&mut self, row: &mut Row, k: i64, marked: bool) -> Result<(), ReadError> {
         if k == 0 {
             self.first = row.ranged("the number of the first vertex", 0, 1)?;
+            // Only now it is known by which number the file calls it.
+            row.element = Element::Nth("vertex", self.first as u64);
         } else {
             let due = k + self.first;
             row.ranged("the number of the vertex", due, due)?;

@@ -98,7 +98,11 @@ impl<'a> File<'a> {
                 .and_then(|n| n.trim_ascii().parse::<u64>().ok());
             n.filter(|&n| n <= MOST_ELEMENTS)
                 .map(|n| n as usize)
-                .ok_or_else(|| piece.fault(format!("{name} is missing or no whole number"), ""))
+                .ok_or_else(|| {
+                    let said = piece.get(name).map_or("missing".into(), shown);
+                    let fix = format!("it must be a whole number of at most {MOST_ELEMENTS}");
+                    piece.fault(format!("{name} is {said}"), &fix)
+                })
         };
         Ok(File {
             size: bytes.len(),

@@ -308,7 +308,7 @@ fn bad_vtu() {
     with(
         "NumberOfPoints=\"6\"",
         "NumberOfPoints=\"-6\"",
-        ".vtu line 4: Piece: NumberOfPoints is missing or no whole number",
+        ".vtu line 4: Piece: NumberOfPoints is -6; it must be a whole number of at most 2147483647",
     );
     with(
         "\n1 0.1 0\n",

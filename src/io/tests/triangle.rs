@@ -109,7 +109,7 @@ fn bad_poly() {
             ),
             (
                 b"1 2\n1 0 NaN\n",
-                ".poly line 2 column 5: vertex 0: y: `NaN` is not a finite number; write a decimal number such as -1.5e3",
+                ".poly line 2 column 5: vertex 1: y: `NaN` is not a finite number; write a decimal number such as -1.5e3",
             ),
             (
                 b"2 2\n1 0 0\n2 1e400 0\n",
@@ -117,7 +117,7 @@ fn bad_poly() {
             ),
             (
                 b"1 2\n1 0 zero\n",
-                ".poly line 2 column 5: vertex 0: y: `zero` is not a number; write a decimal number such as -1.5e3",
+                ".poly line 2 column 5: vertex 1: y: `zero` is not a number; write a decimal number such as -1.5e3",
             ),
             (
                 b"1 2\n5 0 0\n",
