@@ -4,13 +4,14 @@
 use arbitrary::{Arbitrary, Unstructured};
 use orthoball::attack::readers::{self, Target};
 use orthoball::attack::{CdtCase, GcdrCase, KernelCase, MutatedTraceCase};
+use orthoball::trace::{Event, Record, SkipReason, SplitKind, Why};
 use std::path::Path;
 
 /// Fewer files than this, and the corpus is not the one that was committed.
 const LEAST: usize = 20;
 
 /// Runs every file of a corpus, in order of names.
-fn replay(target: &str, run: impl Fn(&[u8])) {
+fn replay(target: &str, mut run: impl FnMut(&[u8])) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("fuzz/corpus")
         .join(target);
@@ -83,5 +84,52 @@ fn readers() {
         ("read_trace_binary", Target::TraceBinary),
     ] {
         replay(name, |bytes| readers::run(target, bytes));
+    }
+}
+
+/// The corpus of runs is worth its name: everything that a trace can say is said by some file of it.
+#[test]
+fn the_corpus_reaches_every_event() {
+    let mut said = std::collections::BTreeMap::<String, usize>::new();
+    replay("gcdr", |bytes| {
+        let trace = decoded::<GcdrCase>(bytes).and_then(|case| case.trace());
+        for record in trace.into_iter().flatten() {
+            let what = match record {
+                Record::Event(Event::Insert { why, .. }) => match why {
+                    Why::Free { cause } => format!("free {cause:?}"),
+                    Why::Split { kind, shell, .. } => match (kind, shell) {
+                        (_, Some(_)) => "shell".into(),
+                        (SplitKind::B, _) => "B".into(),
+                        (SplitKind::C { .. }, _) => "C".into(),
+                    },
+                },
+                Record::Event(Event::Remove { .. }) => "remove".into(),
+                Record::Event(Event::Skip { reason, .. }) => match reason {
+                    SkipReason::Resolution => "resolution".into(),
+                    SkipReason::InputAngle { .. } => "input angle".into(),
+                    SkipReason::SplitLimit { .. } => "split limit".into(),
+                },
+                Record::End(end) => format!("{:?}", end.outcome),
+                _ => continue,
+            };
+            *said.entry(what).or_default() += 1;
+        }
+    });
+    println!("{said:?}");
+    for what in [
+        "free Skinny",
+        "free Area",
+        "B",
+        "C",
+        "shell",
+        "remove",
+        "resolution",
+        "input angle",
+        "split limit",
+        "Complete",
+        "Holey",
+        "Stopped",
+    ] {
+        assert!(said.contains_key(what), "no {what} in {said:?}");
     }
 }

@@ -5,7 +5,7 @@ use orthoball::arith::FastKernel;
 use orthoball::check::{Options, Rule, Verdict, verify};
 use orthoball::io::parse_poly;
 use orthoball::model::{
-    Choice, DeletionPolicy, DiskChoice, Fill, GcdrParameters, QueueOrder, SmallAngles,
+    Choice, DeletionPolicy, DiskChoice, Fill, GcdrParameters, Pslg, QueueOrder, SmallAngles,
 };
 use orthoball::refine::{self, gcdr};
 use orthoball::trace::{Record, Recorder};
@@ -83,5 +83,23 @@ fn header_start_and_end_come_once() {
             doubled.insert(at, records[at].clone());
             assert_eq!(rule(&doubled), Some(Rule::Stream), "record {at}");
         }
+    }
+}
+
+/// The checker took the holes of the input out of a plain triangulation, which keeps the whole hull.
+#[test]
+fn a_triangulation_keeps_holes_and_concavities() {
+    let poly = "8 2\n1 0 0\n2 9 1\n3 8 8\n4 0 9\n5 3 3\n6 6 3\n7 6 6\n8 3 6\n\
+        7 0\n1 1 2\n2 2 3\n3 4 1\n4 5 6\n5 6 7\n6 7 8\n7 8 5\n1\n1 4 4\n1\n1 5 5 1 1\n";
+    let input = parse_poly(poly.as_bytes(), None).expect("a good file");
+    for fill in [Fill::Seeds, Fill::Parity, Fill::Convex] {
+        let whole = Pslg {
+            fill,
+            ..input.pslg.clone()
+        };
+        let mut recorder = Recorder::default();
+        let run = refine::triangulate::<FastKernel>(&whole, &mut recorder).expect("a run");
+        assert_eq!(run.mesh.triangles.len(), 10);
+        assert_eq!(rule(&recorder.0), None, "{fill:?}");
     }
 }

@@ -321,8 +321,7 @@ impl Checker {
     fn begin(&mut self) -> Checked {
         self.stage = Stage::Events;
         start::check_start(&mut self.mesh, &self.domain.segments)?;
-        let mut search = Search::default();
-        start::carve(&mut self.mesh, &self.domain, &mut search)?;
+        // A plain triangulation keeps the whole hull.
         let Some(Header {
             algorithm: Algorithm::Gcdr(parameters),
             level,
@@ -331,6 +330,8 @@ impl Checker {
         else {
             return Ok(());
         };
+        let mut search = Search::default();
+        start::carve(&mut self.mesh, &self.domain, &mut search)?;
         start::check_bounded(&self.mesh)?;
         // `check_header` demands a level of every refinement.
         let level = level.unwrap_or(Level::Outside);
