@@ -28,10 +28,8 @@
 //! use orthoball::arith::FastKernel;
 //! use orthoball::check::{self, Verdict};
 //! use orthoball::domain::prepare;
-//! use orthoball::model::{
-//!     Choice, DeletionPolicy, DiskChoice, GcdrParameters, Lines, Point2, Pslg, QueueOrder, Segment, SmallAngles, VertexId,
-//! };
-//! use orthoball::refine::{Options, gcdr};
+//! use orthoball::model::{GcdrParameters, Lines, Point2, Pslg, Segment, VertexId};
+//! use orthoball::refine::{Options, everyday, gcdr};
 //! use orthoball::trace::{Outcome, Recorder};
 //!
 //! let side = |i: u32| Segment { ends: [VertexId(i), VertexId((i + 1) % 4)], marker: 1, toggles: true };
@@ -40,25 +38,8 @@
 //!     segments: (0..4).map(side).collect(),
 //!     ..Pslg::default()
 //! };
-//! // A circumradius below the shortest edge: no angle of 30 degrees or less. Circumcenters and midpoints, as in Chew's second algorithm.
-//! let parameters = GcdrParameters {
-//!     rho2: 1.0,
-//!     d1: 1.0,
-//!     d2: 1.0,
-//!     mu: 1.0,
-//!     choice_a: DiskChoice::Center,
-//!     choice_b: Choice::Center,
-//!     choice_c: Choice::Center,
-//!     kappa: None,
-//!     extreme: None,
-//!     seed: None,
-//!     order: QueueOrder::ShortestEdge,
-//!     deletion: DeletionPolicy::Segment,
-//!     small_angles: SmallAngles::Shells,
-//!     max_area: Some(0.25),
-//!     size_function: false,
-//!     max_splits: None,
-//! };
+//! // No angle of 28 degrees or less, no area above a quarter.
+//! let parameters = GcdrParameters { max_area: Some(0.25), ..everyday(28.0)? };
 //!
 //! let prepared = prepare::<FastKernel>(&square, &Lines::default());
 //! assert!(prepared.findings.is_empty());
@@ -75,7 +56,7 @@
 //!     }
 //!     Verdict::Rejected(why) => panic!("{why:?}"),
 //! }
-//! # Ok::<(), orthoball::refine::RunError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]
 

@@ -63,10 +63,10 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     /// Whether r(t) > h.
     fn exceeds_radius(t: Corners, h: f64) -> bool;
 
-    /// Whether a lies in the closed selection disk of t: |a - o|^2 <= (1 - d2)^2 r^2. Source: [GCDR] Definition 3.1.
+    /// Whether a lies in the closed selection disk of t: |a - o|^2 <= (1 - d2)^2 r^2. Source: \[GCDR\] Definition 3.1.
     fn in_selection_disk(t: Corners, d2: f64, a: Point2) -> bool;
 
-    /// Whether 4 |p - c|^2 <= (1 - delta)^2 |uv|^2, c the midpoint of uv. Source: [GCDR] Definitions 3.2, 3.3.
+    /// Whether 4 |p - c|^2 <= (1 - delta)^2 |uv|^2, c the midpoint of uv. Source: \[GCDR\] Definitions 3.2, 3.3.
     fn in_selection_interval(u: Point2, v: Point2, delta: f64, p: Point2) -> bool;
 
     /// Order of cos^2 of the angle at `apex` between p and q against bound: (u.v)^2 against bound u^2 v^2, with
@@ -104,11 +104,11 @@ pub trait Kernel: Copy + Default + Send + Sync + 'static {
     /// Circumcenter of t.
     fn circumcenter(t: Corners) -> Result<Point2, OutOfRange>;
 
-    /// o + (1 - d2) (x (w - o) + y rot90(w - o)), w = t[0], rot90(x, y) = (-y, x).
+    /// o + (1 - d2) (x (w - o) + y rot90(w - o)), w = `t[0]`, rot90(x, y) = (-y, x).
     fn in_disk(t: Corners, d2: f64, x: f64, y: f64) -> Result<Point2, OutOfRange>;
 
-    /// The off-center of t over the edge pq = t[0] t[1] (the shortest edge): o, if it is at most kappa |pq| from the
-    /// midpoint m of pq (on the side of t[2]); else m + kappa rot90(q - p).
+    /// The off-center of t over the edge pq = `t[0]` `t[1]` (the shortest edge): o, if it is at most kappa |pq| from the
+    /// midpoint m of pq (on the side of `t[2]`); else m + kappa rot90(q - p).
     fn offcenter(t: Corners, kappa: f64) -> Result<Point2, OutOfRange>;
 
     /// The off-center, clamped: if the exact point of `offcenter` lies outside the closed selection disk, the point of

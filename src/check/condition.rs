@@ -104,7 +104,7 @@ fn excess_radius<N: Number>(t: Corners, h: f64, exponent: i32) -> N {
     product - N::of(4.0) * (area2::<N>(t[0], t[1], t[2]) * N::scaled(h, exponent)).square()
 }
 
-/// (1 - d2)^2 r^2 - |a - o|^2, times 4 D^2: not negative in the closed selection disk. [GCDR] Definition 3.1.
+/// (1 - d2)^2 r^2 - |a - o|^2, times 4 D^2: not negative in the closed selection disk. \[GCDR\] Definition 3.1.
 fn selection_disk<N: Number>(t: Corners, d2: f64, a: Point2) -> N {
     let (c, d) = center::<N>(t);
     let w = vector::<N>(t[0], a);
@@ -116,7 +116,7 @@ fn selection_disk<N: Number>(t: Corners, d2: f64, a: Point2) -> N {
     (N::of(1.0) - N::of(d2)).square() * norm2(&c) - norm2(&off)
 }
 
-/// (1 - delta)^2 |uv|^2 - |2p - u - v|^2. [GCDR] Definitions 3.2, 3.3.
+/// (1 - delta)^2 |uv|^2 - |2p - u - v|^2. \[GCDR\] Definitions 3.2, 3.3.
 fn selection_interval<N: Number>(u: Point2, v: Point2, delta: f64, p: Point2) -> N {
     let to_u = vector::<N>(u, p);
     let to_v = vector::<N>(v, p);

@@ -1,4 +1,4 @@
-//! The grading constants of [GCDR] section 5: the system (5.11)-(5.19), the printed solution, the least solution.
+//! The grading constants of \[GCDR\] section 5: the system (5.11)-(5.19), the printed solution, the least solution.
 //!
 //! Problem: Theorem 5.5 bounds the density D = lfs/R of every vertex by D_A, D_B or D_C, the solution of a system of
 //! inequalities. The solution printed as (5.23) violates the system, and the conditions I-1..I-5 do not suffice for a
@@ -7,7 +7,7 @@
 //! A: A, B, C (C1); B: A (C2), B, C (C3); C: B, C (C4). It has a finite solution exactly if each cycle's product of C's exceeds one,
 //! that is C1 > 1, C3 > 1, C4 > 1, C1 C2 > 1; the others (BCB, ABCA) are products of these. `least` is its least solution.
 //! Numbers: conditions are decided in rationals, constants are intervals of rationals with 160 bits.
-//! Source: [GCDR] Theorem 4.6, Lemma 5.4, Theorem 5.5; corrections in `docs/errata.md`.
+//! Source: \[GCDR\] Theorem 4.6, Lemma 5.4, Theorem 5.5; corrections in `docs/errata.md`.
 
 use super::rational::Rational;
 use super::scalar::{Enclosure, Scalar};

@@ -1,4 +1,4 @@
-//! Who sees what: the walk from a triangle to its Steiner point, and cones toward a subsegment. [GCDR] section 2.
+//! Who sees what: the walk from a triangle to its Steiner point, and cones toward a subsegment. \[GCDR\] section 2.
 //!
 //! Only constrained edges block. Every test is an orientation of stored points.
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Parameters of GCDR. Lengths and areas are in input units. Source: [GCDR] section 3, `docs/gcdr.md`.
+/// Parameters of GCDR. Lengths and areas are in input units. Source: \[GCDR\] section 3, `docs/gcdr.md`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GcdrParameters {

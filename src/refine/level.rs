@@ -1,4 +1,4 @@
-//! What a run may promise. Source: [GCDR] Definitions 3.1-3.3 and Theorem 5.5, as corrected in `docs/errata.md` (E2, E18-E20).
+//! What a run may promise. Source: \[GCDR\] Definitions 3.1-3.3 and Theorem 5.5, as corrected in `docs/errata.md` (E2, E18-E20).
 
 use super::gcdr::shells::convex_sectors;
 use crate::arith::{Dyadic, Kernel};

@@ -1,4 +1,4 @@
-//! Figure 7.1 of [GCDR]: the squares, and their mesh at rho = 1.
+//! Figure 7.1 of \[GCDR\]: the squares, and their mesh at rho = 1.
 //!
 //! The paper's caption: rho = 1, 3200 triangles, angles above 30 degrees. The choice of points and the order of the queue are not
 //! told; at rho = 1 all selection regions are points, and only the order is open. At this rho neither the paper's proof nor its correction

@@ -1,4 +1,4 @@
-//! What [GCDR] prints: Table 7.1 and the caption of Figure 7.1.
+//! What \[GCDR\] prints: Table 7.1 and the caption of Figure 7.1.
 
 /// A row of Table 7.1: a configuration of the two experiments, at rho = sqrt 2.
 #[derive(Clone, Copy, Debug, PartialEq)]

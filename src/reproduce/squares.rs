@@ -1,4 +1,4 @@
-//! The input of [GCDR] section 7 and one measured run on it.
+//! The input of \[GCDR\] section 7 and one measured run on it.
 
 use crate::arith::FastKernel;
 use crate::check::grading::Selection;
@@ -12,7 +12,7 @@ use crate::trace::{Event, Record, Sink};
 
 /// Five concentric squares: the outermost has side 100, the others lie 1, 2, 3, 4 inside it.
 ///
-/// Source: [GCDR] Figure 7.1: adjacent squares are one hundredth of the outermost side apart. The core inside the innermost is meshed.
+/// Source: \[GCDR\] Figure 7.1: adjacent squares are one hundredth of the outermost side apart. The core inside the innermost is meshed.
 pub fn squares() -> Pslg {
     let mut pslg = Pslg::default();
     for inset in [0.0, 1.0, 2.0, 3.0, 4.0] {

@@ -1,4 +1,4 @@
-//! Table 7.1 of [GCDR]: 32 configurations, published beside ours and beside the corrected bounds.
+//! Table 7.1 of \[GCDR\]: 32 configurations, published beside ours and beside the corrected bounds.
 
 use super::published::{Row, TABLE};
 use super::squares::{Experiment, Measured, measure, parameters, selection};

@@ -6,7 +6,7 @@
 //! and a fifth that is incident to those four has it too, so comparing with the first four is enough (two vertices are never
 //! incident; of three segments that pairwise share ends without a common one, no fourth feature is incident to all).
 //! A tree of boxes yields features in order of lower bounds of their distances. What doubles cannot tell apart is sorted in rationals.
-//! Source: [GCDR] Definition 2.2, `docs/gcdr.md` (incidence).
+//! Source: \[GCDR\] Definition 2.2, `docs/gcdr.md` (incidence).
 
 use crate::check::scalar::{Bounded, Enclosure, Scalar};
 use crate::model::{Point2, SegmentId, VertexId};

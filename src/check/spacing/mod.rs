@@ -7,7 +7,7 @@
 //! the business of the replay, which must accept a record before it comes here.
 //! Numbers: normalised by a power of two. Each row is written once over `Scalar`: doubles with error bounds, then intervals of
 //! rationals; what those leave open is counted as undecided, never as held.
-//! Source: [GCDR] sections 2 and 5; `docs/gcdr.md`; corrections in `docs/errata.md`.
+//! Source: \[GCDR\] sections 2 and 5; `docs/gcdr.md`; corrections in `docs/errata.md`.
 
 mod features;
 mod quantities;

@@ -1,4 +1,4 @@
-//! Finding bad triangles and keeping them in order. Source: [GCDR] Algorithm 2, lines 2-4, 15.
+//! Finding bad triangles and keeping them in order. Source: \[GCDR\] Algorithm 2, lines 2-4, 15.
 
 use super::queue::{Bad, Badness};
 use super::{Refiner, params::in_window};

@@ -1,4 +1,4 @@
-//! Choices of Steiner points in selection disks and intervals. Source: [GCDR] Definitions 3.1-3.3, section 7.
+//! Choices of Steiner points in selection disks and intervals. Source: \[GCDR\] Definitions 3.1-3.3, section 7.
 
 use super::queue::shortest_edge;
 use crate::arith::philox::philox4x32;

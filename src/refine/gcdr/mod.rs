@@ -1,4 +1,4 @@
-//! GCDR: constrained Delaunay refinement with selection regions. Source: [GCDR] Algorithm 2, section 3.
+//! GCDR: constrained Delaunay refinement with selection regions. Source: \[GCDR\] Algorithm 2, section 3.
 //!
 //! While a bad triangle exists, a Steiner point is chosen in its selection disk (Type-A). If a constraint hides it, that
 //! subsegment is split instead (Type-B, or Type-C where a vertex that stays is seen in its diametral disk), after the free vertices seen there are

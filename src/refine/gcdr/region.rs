@@ -1,4 +1,4 @@
-//! Selection regions of stored points, and users' choices in them. Source: [GCDR] Definitions 3.1-3.3.
+//! Selection regions of stored points, and users' choices in them. Source: \[GCDR\] Definitions 3.1-3.3.
 
 use super::Refiner;
 use crate::arith::{Dyadic, Kernel};

@@ -1,4 +1,4 @@
-//! Splitting an encroached subsegment: its type, its point, what is deleted for it. Source: [GCDR] Algorithm 2, lines 6-14.
+//! Splitting an encroached subsegment: its type, its point, what is deleted for it. Source: \[GCDR\] Algorithm 2, lines 6-14.
 
 use super::choose::on_segment;
 use super::{Kind, Refiner};

@@ -1,6 +1,6 @@
 //! Insertion of a free vertex and split of a segment: flood the conflict zone, star the cavity.
 //!
-//! Source: [GCDR] Algorithm 1; the order of the flood is that of `docs/trace-format.md`, 'Flood order'.
+//! Source: \[GCDR\] Algorithm 1; the order of the flood is that of `docs/trace-format.md`, 'Flood order'.
 //!
 //! The cavity is star-shaped around p and its triangles form a tree: from a triangle in conflict with p, entered across an
 //! edge that p lies strictly on the near side of, p sees the two other edges from inside, because beyond the chord of

@@ -5,7 +5,7 @@
 //! Idea: triangles in one flat array, linked by half-edges; every operation replaces the triangles of a cavity by others
 //! with the same boundary. Insertions star the cavity (`insert`, `split`); deletions and new segments triangulate its
 //! boundary polygon (`polygon`). All decisions are the kernel's, so the result depends on the points and segments alone.
-//! Sources: [GCDR] Algorithm 1 (Bowyer and Watson); the tie-break of `arith::perturb`.
+//! Sources: \[GCDR\] Algorithm 1 (Bowyer and Watson); the tie-break of `arith::perturb`.
 
 mod build;
 mod carve;

@@ -1,6 +1,6 @@
 //! Sight in a constrained triangulation: the walk from a triangle to a point, and what a vertex sees of a subsegment.
 //!
-//! Constraints block sight as closed point sets; free and isolated vertices do not. Source: [GCDR] section 2 as
+//! Constraints block sight as closed point sets; free and isolated vertices do not. Source: \[GCDR\] section 2 as
 //! corrected in `docs/errata.md` (E13, E16).
 
 use super::{Cdt2, HalfEdge, TriId};
