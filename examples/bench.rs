@@ -9,14 +9,10 @@
 //!
 //! Files as in `oracle/bench_inputs.py`. Prints seconds, vertices, triangles; `refine` and `trace` also steps, `trace` also bytes.
 
-use orthoball::arith::angle::{kappa, rho2_from_min_angle};
 use orthoball::arith::{ExactKernel, FastKernel, Kernel};
 use orthoball::domain::normalise;
-use orthoball::model::{
-    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Lines, Point2, Pslg, QueueOrder, Segment,
-    SmallAngles, VertexId,
-};
-use orthoball::refine::{Options, Run, gcdr};
+use orthoball::model::{GcdrParameters, Lines, Point2, Pslg, Segment, VertexId};
+use orthoball::refine::{Options, Run, everyday, gcdr};
 use orthoball::trace::{Discard, Format, Sink, Writer};
 use orthoball::triangulation::cdt2::Cdt2;
 use std::error::Error;
@@ -89,24 +85,9 @@ fn refine<K: Kernel>(
     degrees: f64,
     sink: &mut dyn Sink,
 ) -> Result<(Run, f64), Box<dyn Error>> {
-    let rho2 = rho2_from_min_angle(degrees)?;
     let parameters = GcdrParameters {
-        rho2,
-        d1: 1.0,
-        d2: 1.0,
-        mu: 1.0,
-        choice_a: DiskChoice::Offcenter,
-        choice_b: Choice::Center,
-        choice_c: Choice::Center,
-        kappa: Some(kappa(rho2)),
-        extreme: None,
-        seed: None,
-        order: QueueOrder::ShortestEdge,
-        deletion: DeletionPolicy::Segment,
-        small_angles: SmallAngles::Shells,
         max_area: Some(area),
-        size_function: false,
-        max_splits: None,
+        ..everyday(degrees)?
     };
     let start = cpu_seconds();
     let run = gcdr::run::<K>(&domain(shape)?, &parameters, &mut Options::default(), sink)?;

@@ -12,24 +12,7 @@ use orthoball::trace::{Record, Recorder};
 
 /// Circumcenters and midpoints, 25 degrees.
 fn parameters() -> GcdrParameters {
-    GcdrParameters {
-        rho2: 1.4,
-        d1: 1.0,
-        d2: 1.0,
-        mu: 1.0,
-        choice_a: DiskChoice::Center,
-        choice_b: Choice::Center,
-        choice_c: Choice::Center,
-        kappa: None,
-        extreme: None,
-        seed: None,
-        order: QueueOrder::ShortestEdge,
-        deletion: DeletionPolicy::Segment,
-        small_angles: SmallAngles::Shells,
-        max_area: None,
-        size_function: false,
-        max_splits: None,
-    }
+    GcdrParameters::chew(1.4)
 }
 
 fn trace(poly: &str, parameters: &GcdrParameters) -> Vec<Record> {

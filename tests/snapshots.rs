@@ -10,10 +10,9 @@ use orthoball::check::{Options, Verdict, verify};
 use orthoball::domain::prepare;
 use orthoball::io::parse_poly;
 use orthoball::model::{
-    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Level, Lines, QueueOrder, SmallAngles,
-    VertexOfTriangle,
+    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Level, Lines, QueueOrder, VertexOfTriangle,
 };
-use orthoball::refine::{self, gcdr, least_d2};
+use orthoball::refine::{self, everyday, gcdr, least_d2};
 use orthoball::trace::{Format, Reader, Record, Writer};
 
 const SQUARE: &str = "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
@@ -35,25 +34,7 @@ const REGIONS: &str = "6 2\n1 0 0\n2 1 0\n3 2 0\n4 2 1\n5 1 1\n6 0 1\n7 1\n1 1 2
 
 /// The defaults of the command line.
 fn defaults() -> GcdrParameters {
-    let rho2 = rho2_from_min_angle(25.0).expect("an angle in range");
-    GcdrParameters {
-        rho2,
-        d1: 1.0,
-        d2: 1.0,
-        mu: 1.0,
-        choice_a: DiskChoice::Offcenter,
-        choice_b: Choice::Center,
-        choice_c: Choice::Center,
-        kappa: Some(kappa(rho2)),
-        extreme: None,
-        seed: None,
-        order: QueueOrder::ShortestEdge,
-        deletion: DeletionPolicy::Segment,
-        small_angles: SmallAngles::Shells,
-        max_area: None,
-        size_function: false,
-        max_splits: None,
-    }
+    everyday(25.0).expect("an angle in range")
 }
 
 /// With one kind of choice everywhere.

@@ -5,9 +5,7 @@ use crate::arith::FastKernel;
 use crate::check::{self, Checker, Verdict, verify};
 use crate::domain::prepare;
 use crate::io::{self, ForeignMesh, Format, Input, ReadError};
-use crate::model::{
-    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Mesh2, QueueOrder, SmallAngles,
-};
+use crate::model::{GcdrParameters, Mesh2};
 use crate::trace::{self, Reader, Record};
 
 /// Larger graphs are read but not meshed.
@@ -117,24 +115,7 @@ fn refine(input: &Input) {
     if prepared.has_errors() {
         return;
     }
-    let parameters = GcdrParameters {
-        rho2: 1.4,
-        d1: 1.0,
-        d2: 1.0,
-        mu: 1.0,
-        choice_a: DiskChoice::Center,
-        choice_b: Choice::Center,
-        choice_c: Choice::Center,
-        kappa: None,
-        extreme: None,
-        seed: None,
-        order: QueueOrder::ShortestEdge,
-        deletion: DeletionPolicy::Segment,
-        small_angles: SmallAngles::Shells,
-        max_area: None,
-        size_function: false,
-        max_splits: None,
-    };
+    let parameters = GcdrParameters::chew(1.4);
     let Ok(trace) = records::<FastKernel>(&prepared.pslg, &parameters, 12) else {
         return;
     };

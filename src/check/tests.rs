@@ -1,10 +1,7 @@
 //! Small traces made by hand: those that must be accepted, and what must be rejected of each.
 
 use super::{Options, Place, Rule, Verdict, verify};
-use crate::model::{
-    Choice, DeletionPolicy, DiskChoice, Fill, GcdrParameters, Level, Point2, QueueOrder, Segment,
-    SmallAngles, VertexId,
-};
+use crate::model::{Fill, GcdrParameters, Level, Point2, Segment, VertexId};
 use crate::trace::{Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, SplitKind, Why};
 
 const NO_DIGESTS: Options = Options {
@@ -14,22 +11,8 @@ const NO_DIGESTS: Options = Options {
 
 fn parameters(max_area: Option<f64>) -> GcdrParameters {
     GcdrParameters {
-        rho2: 2.0,
-        d1: 1.0,
-        d2: 1.0,
-        mu: 1.0,
-        choice_a: DiskChoice::Center,
-        choice_b: Choice::Center,
-        choice_c: Choice::Center,
-        kappa: None,
-        extreme: None,
-        seed: None,
-        order: QueueOrder::ShortestEdge,
-        deletion: DeletionPolicy::Segment,
-        small_angles: SmallAngles::Shells,
         max_area,
-        size_function: false,
-        max_splits: None,
+        ..GcdrParameters::chew(2.0)
     }
 }
 

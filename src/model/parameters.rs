@@ -46,6 +46,31 @@ pub struct GcdrParameters {
     pub max_splits: Option<u32>,
 }
 
+impl GcdrParameters {
+    /// Chew's second algorithm: circumcenters and midpoints, delta1 = delta2 = mu = 1; shortest edge first, shells at small
+    /// input angles. The base from which other parameters are written: `GcdrParameters { mu: 0.8, ..GcdrParameters::chew(2.0) }`.
+    pub fn chew(rho2: f64) -> GcdrParameters {
+        GcdrParameters {
+            rho2,
+            d1: 1.0,
+            d2: 1.0,
+            mu: 1.0,
+            choice_a: DiskChoice::Center,
+            choice_b: Choice::Center,
+            choice_c: Choice::Center,
+            kappa: None,
+            extreme: None,
+            seed: None,
+            order: QueueOrder::ShortestEdge,
+            deletion: DeletionPolicy::Segment,
+            small_angles: SmallAngles::Shells,
+            max_area: None,
+            size_function: false,
+            max_splits: None,
+        }
+    }
+}
+
 /// How a Type-A point is chosen in the selection disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -3,9 +3,7 @@
 use crate::arith::angle::{AngleOutOfRange, kappa, rho2_from_min_angle};
 use crate::arith::scale;
 use crate::domain::Scale;
-use crate::model::{
-    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Pslg, QueueOrder, SmallAngles,
-};
+use crate::model::{Choice, DiskChoice, GcdrParameters, Pslg};
 use crate::refine::{Options, RunError};
 
 /// Parameters for everyday use: all angles above `min_angle` degrees where the input allows it, with few triangles.
@@ -16,22 +14,9 @@ use crate::refine::{Options, RunError};
 pub fn everyday(min_angle: f64) -> Result<GcdrParameters, AngleOutOfRange> {
     let rho2 = rho2_from_min_angle(min_angle)?;
     Ok(GcdrParameters {
-        rho2,
-        d1: 1.0,
-        d2: 1.0,
-        mu: 1.0,
         choice_a: DiskChoice::Offcenter,
-        choice_b: Choice::Center,
-        choice_c: Choice::Center,
         kappa: Some(kappa(rho2)),
-        extreme: None,
-        seed: None,
-        order: QueueOrder::ShortestEdge,
-        deletion: DeletionPolicy::Segment,
-        small_angles: SmallAngles::Shells,
-        max_area: None,
-        size_function: false,
-        max_splits: None,
+        ..GcdrParameters::chew(rho2)
     })
 }
 
