@@ -4,9 +4,7 @@
 use orthoball::arith::FastKernel;
 use orthoball::check::{Options, Rule, Verdict, verify};
 use orthoball::io::parse_poly;
-use orthoball::model::{
-    Choice, DeletionPolicy, DiskChoice, Fill, GcdrParameters, Pslg, QueueOrder, SmallAngles,
-};
+use orthoball::model::{Fill, GcdrParameters, Pslg};
 use orthoball::refine::{self, gcdr};
 use orthoball::trace::{Record, Recorder};
 
