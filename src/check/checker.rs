@@ -165,7 +165,7 @@ impl Checker {
             };
             return Verdict::Rejected(placed(b, Place::End));
         }
-        self.unchecked.sort_unstable_by_key(|u| u.rule);
+        self.unchecked.sort_unstable_by_key(|u| (u.rule, u.reason));
         self.unchecked.dedup();
         Verdict::Accepted {
             events: self.events,
@@ -362,17 +362,24 @@ impl Checker {
             );
         };
         replay.event = self.events;
-        if let Event::Skip {
-            reason: SkipReason::Resolution,
-            ..
-        } = event
+        if let Event::Skip { reason, .. } = event
             && !self.options.strict
         {
-            self.unchecked.push(Unchecked {
-                rule: Rule::Skip,
-                reason: "why a point cannot be represented is proved by strict verification",
-            });
-            self.unchecked.dedup();
+            let left = match reason {
+                SkipReason::Resolution => {
+                    Some("why a point cannot be represented is proved by strict verification")
+                }
+                SkipReason::SplitLimit { .. } => Some(
+                    "which segment a skipped triangle would split is proved by strict verification",
+                ),
+                SkipReason::InputAngle { .. } => None,
+            };
+            if let Some(reason) = left.filter(|&l| self.unchecked.iter().all(|u| u.reason != l)) {
+                self.unchecked.push(Unchecked {
+                    rule: Rule::Skip,
+                    reason,
+                });
+            }
         }
         if let Some(strict) = &mut self.strict {
             strict.before(replay, event)?;

@@ -127,6 +127,30 @@ fn selection_interval<N: Number>(u: Point2, v: Point2, delta: f64, p: Point2) ->
     (N::of(1.0) - N::of(delta)).square() * distance2::<N>(u, v) - norm2(&off)
 }
 
+/// cross(uv, up)^2 - tolerance^2 (|x| + |y|)^2, (x, y) = uv: a point of the line moved by at most the tolerance in each coordinate has none.
+fn excess_deviation<N: Number>(u: Point2, v: Point2, p: Point2, tolerance: f64) -> N {
+    let of = |a: f64, b: f64| N::of(a.max(b)) - N::of(a.min(b));
+    let reach = N::of(tolerance) * (of(u.x, v.x) + of(u.y, v.y));
+    area2::<N>(u, v, p).square() - reach.square()
+}
+
+/// |apex p|^2 - (distance + tolerance)^2.
+fn excess_distance<N: Number>(
+    apex: Point2,
+    p: Point2,
+    distance: f64,
+    exponent: i32,
+    tolerance: f64,
+) -> N {
+    let reach = N::scaled(distance, exponent) + N::of(tolerance);
+    distance2::<N>(apex, p) - reach.square()
+}
+
+/// distance - tolerance.
+fn longer_than<N: Number>(distance: f64, exponent: i32, tolerance: f64) -> N {
+    N::scaled(distance, exponent) - N::of(tolerance)
+}
+
 /// cross(uv, uw)^2 times 4 - |uv|^4: negative if the line of ... see `meets_diametral_disk`.
 fn line_beyond_disk<N: Number>(u: Point2, v: Point2, a: Point2, b: Point2) -> N {
     // Distance from the midpoint c of uv to the line ab against |uv|/2: cross(ab, 2c - 2a)^2 against |ab|^2 |uv|^2.
@@ -224,6 +248,25 @@ pub fn in_selection_disk(t: Corners, d2: f64, a: Point2) -> bool {
 /// Whether p lies in the disk about the midpoint of uv that has the selection interval as diameter.
 pub fn in_selection_interval(u: Point2, v: Point2, delta: f64, p: Point2) -> bool {
     !sign_of!(selection_interval(u, v, delta, p)).is_negative()
+}
+
+/// Whether p lies within `tolerance` of the line uv, in each coordinate.
+pub fn is_near_line(u: Point2, v: Point2, p: Point2, tolerance: f64) -> bool {
+    !sign_of!(excess_deviation(u, v, p, tolerance)).is_positive()
+}
+
+/// Whether |apex p| is `distance` 2^`exponent` up to `tolerance`.
+pub fn is_at_distance(
+    apex: Point2,
+    p: Point2,
+    distance: f64,
+    exponent: i32,
+    tolerance: f64,
+) -> bool {
+    let near = !sign_of!(longer_than(distance, exponent, tolerance)).is_positive();
+    !sign_of!(excess_distance(apex, p, distance, exponent, tolerance)).is_positive()
+        && (near
+            || !sign_of!(excess_distance(apex, p, distance, exponent, -tolerance)).is_negative())
 }
 
 /// Whether the closed edge ab meets the open disk with diameter uv.

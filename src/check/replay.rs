@@ -6,7 +6,8 @@
 
 use super::complex::{Complex, Kind, NONE, canonical, next, numbers, previous};
 use super::condition::{
-    compare_lengths, exceeds_area, exceeds_radius, in_circle, in_diametral_disk, is_skinny,
+    Corners, compare_lengths, exceeds_area, exceeds_radius, in_circle, in_diametral_disk,
+    in_selection_disk, in_selection_interval, is_at_distance, is_near_line, is_skinny,
     shortest_edge,
 };
 use super::rows::{self, Deltas, Regions};
@@ -14,8 +15,8 @@ use super::sight::{Aim, Arrival, Crossing, Search, walk};
 use super::value::power_of_two;
 use super::verdict::{Broken, Checked, Rule, broken, ensure};
 use crate::model::{
-    Choice, DeletionPolicy, GcdrParameters, Point2, Segment, SegmentId, SmallAngles, Triangle,
-    VertexId,
+    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Point2, Segment, SegmentId, SmallAngles,
+    Triangle, VertexId,
 };
 use crate::trace::{Cause, Counts, Event, Shell, SkipReason, SplitKind, Why};
 
@@ -402,6 +403,7 @@ impl Replay {
                 format!("{p:?}"),
             )
         })?;
+        self.check_users_disk(corners, p)?;
         let (ids, slack) = (self.mesh.corners(t), self.regions.disk(corners, p));
         let region = self.mesh.facts(t).region;
         let root = (0..3).find(|&k| ids[k as usize] == first[0].0).unwrap_or(0);
@@ -448,6 +450,7 @@ impl Replay {
                 format!("{a:?}"),
             )
         })?;
+        self.check_users_disk(corners, a)?;
         let deltas = self.regions.disk_of_rejected(corners, a);
         let s = match walk(&self.mesh, t, a) {
             Arrival::Edge(s) => s,
@@ -506,8 +509,11 @@ impl Replay {
                 "one more",
             )
         })?;
+        self.check_on_segment(&split)?;
         self.check_shell(&split, shell)?;
         let rung = self.rung(&split, shell);
+        self.check_rung(&split, rung)?;
+        self.check_users_interval(&split, shell)?;
         let slack = self.regions.interval(split.kind, [u, v], split.p);
         rows::before_split(self, &split)?;
         self.check_kind_and_removals(&split)?;
@@ -524,6 +530,69 @@ impl Replay {
             SplitKind::C { .. } => self.tally.type_c += 1,
         }
         rows::after_split(self, &split, p, facts_of_t, slack)
+    }
+
+    /// p is on its subsegment up to rounding: each coordinate within 2^-50 of the larger ones of the ends, half a unit in the last place being
+    /// 2^-53 of them at most, so that a user's function may round a few times. 2^-140 covers coordinates that became 0.
+    fn check_on_segment(&self, split: &Split) -> Checked {
+        let [u, v] = split.ends.map(|v| self.mesh.at(v));
+        let size = [u.x, u.y, v.x, v.y]
+            .map(f64::abs)
+            .into_iter()
+            .fold(0.0, f64::max);
+        let tolerance = size * power_of_two(-50) + power_of_two(-140);
+        ensure(is_near_line(u, v, split.p, tolerance), Rule::S2, || {
+            (
+                "a point on its subsegment, up to rounding",
+                format!("{:?} off {:?}", split.p, split.ends),
+            )
+        })
+    }
+
+    /// A user's Type-A point lies in its selection disk with slack at every level: the run ends if it does not.
+    fn check_users_disk(&self, t: Corners, a: Point2) -> Checked {
+        let free = self.parameters.choice_a != DiskChoice::User;
+        ensure(
+            free || in_selection_disk(t, self.regions.slack.d2, a),
+            Rule::A2,
+            || ("a point of the selection disk", format!("{a:?}")),
+        )
+    }
+
+    /// A user's point on a segment lies in its selection interval with slack at every level.
+    fn check_users_interval(&self, split: &Split, shell: Option<Shell>) -> Checked {
+        let (p, slack) = (&self.parameters, self.regions.slack);
+        let (choice, delta) = match split.kind {
+            SplitKind::B => (p.choice_b, slack.d1),
+            SplitKind::C { .. } => (p.choice_c, slack.mu),
+        };
+        let [u, v] = split.ends.map(|v| self.mesh.at(v));
+        let free = choice != Choice::User || shell.is_some();
+        ensure(
+            free || in_selection_interval(u, v, delta, split.p),
+            Rule::S2,
+            || {
+                (
+                    "a point of the selection interval",
+                    format!("{:?}", split.p),
+                )
+            },
+        )
+    }
+
+    /// The nominal distance of a rung is the distance, up to the roundings of it and of those it is halfway of: 2^-46 of the input's size.
+    fn check_rung(&self, split: &Split, rung: Option<(u32, f64)>) -> Checked {
+        let Some((apex, distance)) = rung else {
+            return Ok(());
+        };
+        let (at, exponent) = (self.mesh.at(apex), -self.scale.exponent);
+        let holds = is_at_distance(at, split.p, distance, exponent, power_of_two(-46));
+        ensure(holds, Rule::Shell, || {
+            (
+                format!("a point {distance:e} from vertex {apex}"),
+                format!("{:?} (scaled)", split.p),
+            )
+        })
     }
 
     /// The rung of a split point: 2^k on shell k, halfway between rungs of one apex for a midpoint, else none.
