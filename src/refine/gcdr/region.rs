@@ -1,6 +1,7 @@
 //! Selection regions of stored points, and users' choices in them. Source: \[GCDR\] Definitions 3.1-3.3.
 
 use super::Refiner;
+use crate::arith::scale::by_power_of_two;
 use crate::arith::{Dyadic, Kernel};
 use crate::model::{Choice, DiskChoice, Point2, Triangle, VertexId};
 use crate::refine::{DiskRequest, IntervalRequest, RunError};
@@ -65,17 +66,12 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             d2: self.params.d2,
         };
         let point = chooser.in_disk(&request);
-        let normal = self.scale.to_normal(point);
-        let inside =
-            point.is_finite() && K::in_selection_disk(corners, slackened(self.params.d2), normal);
-        if inside {
-            Ok(normal)
-        } else {
-            Err(RunError::RegionViolation {
+        self.storable(point)
+            .filter(|&p| K::in_selection_disk(corners, slackened(self.params.d2), p))
+            .ok_or_else(|| RunError::RegionViolation {
                 point,
                 place: format!("triangle {ids:?}"),
             })
-        }
     }
 
     pub(super) fn user_interval(
@@ -100,17 +96,42 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             delta,
         };
         let point = chooser.in_interval(&request);
-        let normal = self.scale.to_normal(point);
-        let inside = point.is_finite() && K::in_selection_interval(u, v, slackened(delta), normal);
-        if inside {
-            Ok(normal)
-        } else {
-            Err(RunError::RegionViolation {
+        self.storable(point)
+            .filter(|&p| {
+                K::in_selection_interval(u, v, slackened(delta), p) && is_near_line(u, v, p)
+            })
+            .ok_or_else(|| RunError::RegionViolation {
                 point,
                 place: format!("subsegment {ids:?}"),
             })
-        }
     }
+
+    /// A user's point in normalised units, if a trace can hold it: coordinates +0 or of 2^-142 to 2^200. (-0 is 0.)
+    fn storable(&self, point: Point2) -> Option<Point2> {
+        let point = Point2::new(point.x + 0.0, point.y + 0.0);
+        let normal = self.scale.to_normal(point);
+        let fits = [normal.x, normal.y].iter().all(|c| {
+            let least = by_power_of_two(1.0, -142);
+            *c == 0.0 || (least..=by_power_of_two(1.0, 200)).contains(&c.abs())
+        });
+        (point.is_finite() && fits && self.scale.to_input(normal) == point).then_some(normal)
+    }
+}
+
+/// Whether p is on the line uv up to a user's roundings: 2^-50 of the largest coordinate of u and v (a unit in the last place is 2^-52 of it at
+/// most) and 2^-140 in each coordinate. The checker asks the same of every split point.
+fn is_near_line(u: Point2, v: Point2, p: Point2) -> bool {
+    let of = |x: f64| Dyadic::from_f64(x).unwrap_or_else(|| Dyadic::integer(0));
+    let minus = |a: f64, b: f64| &of(a) - &of(b);
+    let size = [u.x, u.y, v.x, v.y]
+        .map(f64::abs)
+        .into_iter()
+        .fold(0.0, f64::max);
+    let tolerance = size * by_power_of_two(1.0, -50) + by_power_of_two(1.0, -140);
+    let cross = &(&minus(v.x, u.x) * &minus(p.y, u.y)) - &(&minus(v.y, u.y) * &minus(p.x, u.x));
+    let extent = &minus(u.x.max(v.x), u.x.min(v.x)) + &minus(u.y.max(v.y), u.y.min(v.y));
+    let reach = &of(tolerance) * &extent;
+    cross <= reach && &of(0.0) - &reach <= cross
 }
 
 /// delta (1 - 2^-20), rounded down.
