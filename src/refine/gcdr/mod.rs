@@ -110,12 +110,13 @@ pub fn run<K: Kernel>(
     } = Initial::<K>::of(pslg)?;
     let sectors = sectors_of(&cdt);
     let level = level_of(params, &sectors);
+    let area_bounds = area_bounds(&pslg, params, scale)?;
     write_head(&pslg, params, level, &start, sink)?;
     let mut refiner = Refiner {
         kinds: vec![Kind::Input; cdt.vertex_count()],
         splits: vec![0; pslg.segments.len()],
         segments: pslg.segments.iter().map(|s| s.ends).collect(),
-        area_bounds: area_bounds(&pslg, params, scale)?,
+        area_bounds,
         cdt,
         scale,
         sectors,
@@ -262,8 +263,8 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         let s = ordered(self.cdt.origin(e), self.cdt.destination(e));
         // the walk ends at constrained edges only
         let segment = self.cdt.segment(e).unwrap_or_default();
-        let seen = self.non_free_seen(s);
-        let type_c = !seen.is_empty();
+        let near = self.non_free_near(s);
+        let type_c = !near.is_empty();
         let (p, shell) = self.split_point(s, type_c)?;
         if self
             .params
@@ -285,7 +286,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         }
         let kind = match type_c {
             true => self
-                .parent(s, p, seen)
+                .parent(s, p, near)
                 .map(|parent| SplitKind::C { parent }),
             false => Ok(SplitKind::B),
         };

@@ -83,19 +83,17 @@ pub(super) fn area_bounds(
 /// An area bound in normalised units; no bound if it is too large to matter.
 fn area_bound(area: Option<f64>, scale: Scale) -> Result<Option<f64>, RunError> {
     let Some(value) = area else { return Ok(None) };
-    if value.is_nan() || value <= 0.0 {
+    if !value.is_finite() || value <= 0.0 {
         return Err(RunError::Parameter {
             name: "max_area",
             value,
-            range: "positive",
+            range: "positive and finite",
         });
     }
     match in_window(value, -2 * scale.exponent) {
         Some(bound) => Ok(Some(bound)),
         // a normalised domain has an area of at most 4
-        None if value.is_infinite() || scale::exponent_of(value) - 2 * scale.exponent > 0 => {
-            Ok(None)
-        }
+        None if scale::exponent_of(value) - 2 * scale.exponent > 0 => Ok(None),
         None => Err(RunError::Parameter {
             name: "max_area",
             value,

@@ -25,16 +25,20 @@ pub(super) struct Split {
 type Diameter = [Point2; 2];
 
 impl<K: Kernel> Refiner<'_, '_, K> {
-    /// The non-free vertices seen strictly inside Diam(s). Type-C iff there is one.
-    pub(super) fn non_free_seen(&mut self, s: [VertexId; 2]) -> Vec<VertexId> {
+    /// The non-free vertices strictly inside Diam(s) if one of them is seen, which makes the split Type-C; else none.
+    ///
+    /// Those not seen are in the list too: to ask for each costs the square of their number where many hide behind a constraint, and the
+    /// parent is asked for by `parent` from the closest one on.
+    pub(super) fn non_free_near(&mut self, s: [VertexId; 2]) -> Vec<VertexId> {
         if !self.an_apex_encroaches(s) {
             return Vec::new();
         }
         let diameter = s.map(|v| self.cdt.point(v));
         let mut found = self.vertices_near(s, &[diameter]);
-        found.retain(|&w| {
-            self.kinds[w.index()] != Kind::Free && self.cdt.sees(w, s, Target::Interior)
-        });
+        found.retain(|&w| self.kinds[w.index()] != Kind::Free);
+        if !found.iter().any(|&w| self.cdt.sees(w, s, Target::Interior)) {
+            found.clear();
+        }
         found
     }
 
@@ -108,13 +112,13 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         &self,
         s: [VertexId; 2],
         p: Point2,
-        mut seen: Vec<VertexId>,
+        mut near: Vec<VertexId>,
     ) -> Result<VertexId, SkipReason> {
-        seen.sort_by(|&a, &b| {
+        near.sort_by(|&a, &b| {
             let (pa, pb) = (self.cdt.point(a), self.cdt.point(b));
             K::compare_lengths(p, pa, p, pb).then(a.cmp(&b))
         });
-        seen.into_iter()
+        near.into_iter()
             .find(|&w| self.cdt.sees(w, s, Target::Point(p)))
             .ok_or(SkipReason::Resolution)
     }
