@@ -402,6 +402,9 @@ impl Checker {
         };
         let mesh = match &self.replay {
             Some(replay) => {
+                if self.options.strict {
+                    start::check_delaunay(&replay.mesh)?;
+                }
                 claims::check_end(replay, end)?;
                 let level = effective_level(replay, &self.header, &self.sectors);
                 ensure(end.level_effective == Some(level), Rule::Level, || {

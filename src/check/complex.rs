@@ -285,7 +285,29 @@ impl Complex {
 
     /// The half-edge from u to v, if some triangle has it on its boundary in this direction.
     pub fn find_edge(&self, u: u32, v: u32) -> Option<u32> {
-        self.star(u).find(|&e| self.target(e) == v)
+        let start = self.vertices.get(u as usize)?.star;
+        let mut e = start;
+        while e != NONE {
+            if self.target(e) == v {
+                return Some(e);
+            }
+            e = self.beyond(previous(e));
+            if e == start {
+                return None;
+            }
+        }
+        // The star ends at a border: the rest of it lies clockwise of the start.
+        e = start;
+        while e != NONE {
+            e = match self.beyond(e) {
+                NONE => NONE,
+                other => next(other),
+            };
+            if e != NONE && self.target(e) == v {
+                return Some(e);
+            }
+        }
+        None
     }
 
     /// The triangle with these corners, counterclockwise.

@@ -167,14 +167,63 @@ fn foot_beyond<N: Number>(u: Point2, v: Point2, a: Point2, b: Point2) -> N {
     dot(&ab, &vector(a, u)) + dot(&ab, &vector(a, v))
 }
 
+/// The sign of a polynomial from its value in floating point, if that is certain; `size` is the sum of the magnitudes of its monomials.
+///
+/// The differences of coordinates count as variables, so each is rounded once. No formula below rounds a monomial, its differences
+/// included, more than 14 times. Every rounding is a factor within 1 ± 2^-53, so the value is off by less than 14.1 2^-53 times the exact sum of
+/// magnitudes, which is less than 1 + 14.1 2^-53 times `size`: together less than 2^-49 `size`. Nothing underflows: stored coordinates are 0 or
+/// within 2^-142..2^200 and of 53 bits, so differences are 0 or at least 2^-194, and what they make 0 or above 2^-900. The last factor alone
+/// may be any f64 (the ratio of `is_skinny`, a seed in `orient`), which `TINY` pays for. Overflow gives an infinity or a NaN, and no answer.
+#[inline]
+fn certain(value: f64, size: f64) -> Option<Sign> {
+    const TINY: f64 = 1e-300;
+    let error = size * (f64::EPSILON * 8.0) + TINY;
+    if value > error {
+        Some(Sign::Positive)
+    } else if value < -error {
+        Some(Sign::Negative)
+    } else {
+        None
+    }
+}
+
+/// The two products of cross(u, v).
+#[inline]
+fn products([ux, uy]: [f64; 2], [vx, vy]: [f64; 2]) -> [f64; 2] {
+    [ux * vy, uy * vx]
+}
+
+#[inline]
+fn minus(b: Point2, a: Point2) -> [f64; 2] {
+    [b.x - a.x, b.y - a.y]
+}
+
+#[inline]
+fn square([x, y]: [f64; 2]) -> f64 {
+    x * x + y * y
+}
+
 /// Whether a, b, c turn counterclockwise.
+#[inline]
 pub fn orient(a: Point2, b: Point2, c: Point2) -> Sign {
-    sign_of!(area2(a, b, c))
+    let [l, r] = products(minus(b, a), minus(c, a));
+    certain(l - r, l.abs() + r.abs()).unwrap_or_else(|| sign_of!(area2(a, b, c)))
 }
 
 /// Position of q against the circle through t: positive strictly inside.
+#[inline]
 pub fn in_circle(t: Corners, q: Point2) -> Sign {
-    sign_of!(circle(t, q))
+    let [u, v, w] = [t[1], t[2], q].map(|p| minus(p, t[0]));
+    let (mut value, mut size) = (0.0, 0.0);
+    for ([l, r], lift) in [
+        (products(w, v), square(u)),
+        (products(u, w), square(v)),
+        (products(v, u), square(w)),
+    ] {
+        value += (l - r) * lift;
+        size += (l.abs() + r.abs()) * lift;
+    }
+    certain(value, size).unwrap_or_else(|| sign_of!(circle(t, q)))
 }
 
 /// Whether w lies strictly inside the circle with diameter uv.
@@ -221,13 +270,23 @@ pub fn walk_side(t: Corners, q: Point2, w: Point2) -> Sign {
 }
 
 /// Sign of |ab| - |cd|.
+#[inline]
 pub fn compare_lengths(a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
-    sign_of!(longer(a, b, c, d))
+    let (ab, cd) = (square(minus(b, a)), square(minus(d, c)));
+    certain(ab - cd, ab + cd).unwrap_or_else(|| sign_of!(longer(a, b, c, d)))
 }
 
 /// Whether t is skinny: r^2 >= rho2 l^2 for its shortest edge, that is for some edge.
 pub fn is_skinny(t: Corners, rho2: f64) -> bool {
-    (0..3).any(|k| !sign_of!(excess_ratio(t, k, rho2)).is_negative())
+    let [a, b, c] = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| square(minus(t[j], t[i])));
+    let others = (a * b).max(b * c).max(c * a);
+    let [l, r] = products(minus(t[1], t[0]), minus(t[2], t[0]));
+    let (area, size) = (l - r, l.abs() + r.abs());
+    let factor = 4.0 * rho2;
+    match certain(others - area * area * factor, others + size * size * factor) {
+        Some(sign) => !sign.is_negative(),
+        None => (0..3).any(|k| !sign_of!(excess_ratio(t, k, rho2)).is_negative()),
+    }
 }
 
 /// Whether the area of t exceeds `bound` 2^`exponent`.
