@@ -2,14 +2,16 @@
 
 use super::claims;
 use super::complex::{Complex, Kind, NONE, numbers};
+use super::ledger::Ledger;
 use super::promise::{self, Sector};
-use super::replay::{Replay, Scale, placed};
+use super::replay::Replay;
 use super::rows::Regions;
+use super::scale::Scale;
+use super::scale::power_of_two;
 use super::sight::Search;
 use super::start::{self, Domain};
 use super::strict::Strict;
-use super::value::power_of_two;
-use super::verdict::{Checked, Place, Rejection, Rule, Unchecked, Verdict, broken, ensure};
+use super::verdict::{Checked, Place, Rejection, Rule, Unchecked, Verdict, broken, ensure, placed};
 use crate::model::{Choice, DiskChoice, GcdrParameters, Level, Point2, Region, Segment};
 use crate::trace::{Algorithm, End, Event, Header, Record, SkipReason};
 
@@ -136,7 +138,7 @@ impl Checker {
     /// What the replay has come to, for `snapshot`.
     pub(super) fn state(&self) -> State<'_> {
         let (mesh, segments) = match &self.replay {
-            Some(replay) => (&replay.mesh, &replay.segments),
+            Some(replay) => (&replay.mesh, &replay.ledger.segments),
             None => (&self.mesh, &self.domain.segments),
         };
         State {
@@ -344,10 +346,9 @@ impl Checker {
         let mesh = std::mem::take(&mut self.mesh);
         let apexes = promise::apexes(&mesh, &self.sectors);
         let segments = std::mem::take(&mut self.domain.segments);
-        let mut replay = Replay::new(mesh, parameters.clone(), regions, self.scale, segments);
-        replay.apexes = apexes;
-        replay.search = search;
-        replay.region_bounds = self.domain.regions.iter().map(|r| r.max_area).collect();
+        let bounds = self.domain.regions.iter().map(|r| r.max_area).collect();
+        let ledger = Ledger::new(parameters.clone(), regions, segments, apexes, bounds);
+        let replay = Replay::new(mesh, self.scale, search, ledger);
         self.strict = self.options.strict.then(|| Strict::new(&replay));
         self.replay = Some(replay);
         Ok(())
@@ -413,7 +414,7 @@ impl Checker {
                         format!("{:?}", end.level_effective),
                     )
                 })?;
-                let p = &replay.parameters;
+                let p = &replay.ledger.parameters;
                 if p.size_function {
                     self.unchecked.push(Unchecked {
                         rule: Rule::F3,
@@ -461,11 +462,16 @@ fn effective_level(replay: &Replay, header: &Option<Header>, sectors: &[Sector])
         .as_ref()
         .and_then(|h| h.level)
         .unwrap_or(Level::Outside);
-    let regions = &replay.regions;
+    let regions = &replay.ledger.regions;
     if nominal == Level::Outside || !regions.left_nominal {
         nominal
     } else if !regions.left_slack {
-        promise::level(&replay.parameters, regions.slack, &replay.mesh, sectors)
+        promise::level(
+            &replay.ledger.parameters,
+            regions.slack,
+            &replay.mesh,
+            sectors,
+        )
     } else {
         Level::Outside
     }

@@ -19,8 +19,8 @@ pub fn check_end(replay: &Replay, end: &End) -> Checked {
     }
     check_chains(
         &replay.mesh,
-        |s| replay.segments[s as usize].ends.map(|v| v.0),
-        Some(&replay.splits),
+        |s| replay.ledger.segments[s as usize].ends.map(|v| v.0),
+        Some(&replay.ledger.splits),
     )?;
     let mut unmet = 0;
     for t in replay.mesh.triangles() {
@@ -29,8 +29,8 @@ pub fn check_end(replay: &Replay, end: &End) -> Checked {
         if end.outcome == Outcome::Stopped {
             continue;
         }
-        let skinny =
-            !facts.skipped_skinny && is_skinny(replay.mesh.places(t), replay.parameters.rho2);
+        let skinny = !facts.skipped_skinny
+            && is_skinny(replay.mesh.places(t), replay.ledger.parameters.rho2);
         let large = !facts.skipped_oversized && replay.is_too_large(t);
         ensure(!skinny && !large, Rule::F3, || {
             (
@@ -45,7 +45,7 @@ pub fn check_end(replay: &Replay, end: &End) -> Checked {
         &replay.mesh,
         Counts {
             unmet,
-            ..replay.tally
+            ..replay.ledger.tally
         },
     )?;
     Ok(())

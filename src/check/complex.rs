@@ -3,7 +3,7 @@
 //! A half-edge is `4 * triangle + k`: from corner k to corner k + 1 of a counterclockwise triangle. Slots of destroyed
 //! triangles are used again, so the arrays stay as long as the largest mesh was.
 
-use super::condition::Corners;
+use super::predicates::Corners;
 use crate::model::{Point2, Triangle, VertexId};
 
 /// No half-edge, no segment, no label.
@@ -248,24 +248,18 @@ impl Complex {
 
     /// The first half-edge from v, clockwise as far as the star goes, or `NONE`.
     pub fn first_from(&self, v: u32) -> u32 {
-        let Some(vertex) = self.vertices.get(v as usize) else {
-            return NONE;
-        };
-        let start = vertex.star;
-        if start == NONE {
-            return NONE;
-        }
+        let start = self.vertices.get(v as usize).map_or(NONE, |v| v.star);
         let mut e = start;
-        loop {
-            let other = self.beyond(e);
-            if other == NONE {
-                return e;
+        while e != NONE {
+            match self.beyond(e) {
+                NONE => break,
+                other => e = next(other),
             }
-            e = next(other);
             if e == start {
-                return e;
+                break;
             }
         }
+        e
     }
 
     /// The half-edges from v, counterclockwise; a border ends them.
@@ -296,18 +290,8 @@ impl Complex {
                 return None;
             }
         }
-        // The star ends at a border: the rest of it lies clockwise of the start.
-        e = start;
-        while e != NONE {
-            e = match self.beyond(e) {
-                NONE => NONE,
-                other => next(other),
-            };
-            if e != NONE && self.target(e) == v {
-                return Some(e);
-            }
-        }
-        None
+        // A border was met: the rest of the star lies clockwise of the start.
+        self.star(u).find(|&e| self.target(e) == v)
     }
 
     /// The triangle with these corners, counterclockwise.

@@ -1,7 +1,8 @@
 //! The level of a run, decided from its parameters and the angles of its input. Source: `docs/gcdr.md`, section 2.
 
 use super::complex::{Complex, Kind, NONE, previous};
-use super::condition::{dot, is_below_60, norm2, orient, vector};
+use super::condition::is_below_60;
+use super::predicates::{dot, norm2, orient, vector};
 use super::rows::Deltas;
 use super::value::{Exact, Number, exact_sign, sign_of};
 use crate::model::{DiskChoice, GcdrParameters, Level, Point2, Sign};

@@ -6,12 +6,15 @@
 
 use super::complex::Kind;
 use super::condition::{
-    Corners, area2, center, cross, distance2, dot, in_diametral_disk, in_selection_disk,
-    in_selection_interval, shortest_edge, vector,
+    compare_lengths, distance2, in_diametral_disk, in_selection_disk, in_selection_interval,
+    shortest_edge,
 };
-use super::replay::{Replay, Split};
+use super::predicates::{Corners, area2, center, cross, dot, vector};
+use super::replay::Replay;
+use super::scale::power_of_two;
 use super::sight::exit_edge;
-use super::value::{Approx, Exact, Number, exact_sign, power_of_two};
+use super::split::Split;
+use super::value::{Approx, Exact, Number, exact_sign};
 use super::verdict::{Checked, Rule, ensure};
 use crate::model::{DeletionPolicy, GcdrParameters, Level, Point2};
 use crate::trace::{Cause, SplitKind};
@@ -194,7 +197,7 @@ fn sides<N: Number>(row: Row, c: &Case) -> [N; 3] {
     // r^2 = |C|^2 / (4 D^2)
     let circle = || {
         let (c, d) = center::<N>(c.t);
-        (super::condition::norm2(&c), N::of(4.0) * d.square())
+        (super::predicates::norm2(&c), N::of(4.0) * d.square())
     };
     // cos^2(alpha) = (x.y)^2 / (x^2 y^2)
     let angle = || {
@@ -202,7 +205,7 @@ fn sides<N: Number>(row: Row, c: &Case) -> [N; 3] {
         let (x, y) = (vector::<N>(v, x), vector::<N>(v, y));
         (
             dot(&x, &y).square(),
-            super::condition::norm2(&x) * super::condition::norm2(&y),
+            super::predicates::norm2(&x) * super::predicates::norm2(&y),
         )
     };
     match row {
@@ -359,7 +362,7 @@ fn case(replay: &Replay, t: Corners, ids: [u32; 3], deltas: Deltas, p: u32) -> (
     let at = |v: u32| replay.mesh.at(v);
     let r = |v: u32| [at(v), at(replay.mesh.vertices[v as usize].nearest)];
     let case = Case {
-        rho2: replay.parameters.rho2,
+        rho2: replay.ledger.parameters.rho2,
         deltas,
         t,
         l,
@@ -458,7 +461,7 @@ fn type_b(replay: &Replay, split: &Split, case: &Case, parent: u32, p: u32) -> C
         // For tiny angles the lemma behind B6' is open (erratum 8).
         let kind = replay.mesh.vertices[parent as usize].kind;
         let free = kind == Kind::Deleted
-            || (kind == Kind::Free && replay.parameters.deletion == DeletionPolicy::Point);
+            || (kind == Kind::Free && replay.ledger.parameters.deletion == DeletionPolicy::Point);
         ensure(free || case.rho2 > 25.0, Rule::B6, || {
             (
                 "a free parent, deleted in this step",
@@ -553,7 +556,7 @@ fn cosine<N: Number>(v: Point2, x: Point2, y: Point2) -> N {
 fn incident(replay: &Replay, p: u32, parent: u32) -> Option<[Point2; 3]> {
     let a = replay.mesh.vertices[parent as usize].segment()?;
     let b = replay.mesh.vertices[p as usize].segment()?;
-    let [a, b] = [a, b].map(|s| replay.segments[s as usize].ends.map(|v| v.0));
+    let [a, b] = [a, b].map(|s| replay.ledger.segments[s as usize].ends.map(|v| v.0));
     let shared = a.into_iter().find(|v| b.contains(v))?;
     let far = |s: [u32; 2]| if s[0] == shared { s[1] } else { s[0] };
     Some([shared, far(a), far(b)].map(|v| replay.mesh.at(v)))
@@ -565,7 +568,7 @@ fn deviation(replay: &Replay, v: u32) -> f64 {
     let Some(s) = vertex.segment() else {
         return 0.0;
     };
-    let [a, b] = replay.segments[s as usize]
+    let [a, b] = replay.ledger.segments[s as usize]
         .ends
         .map(|v| replay.mesh.at(v.0));
     let off = area2::<Approx>(a, b, vertex.at).bounds();
@@ -575,5 +578,23 @@ fn deviation(replay: &Replay, v: u32) -> f64 {
         (off / length) * (1.0 + 1e-14)
     } else {
         0.0
+    }
+}
+
+impl Replay {
+    /// Freezes R of a new vertex: the nearest vertex on the rim just left.
+    pub(super) fn measure(&mut self, p: u32) {
+        let at = self.mesh.at(p);
+        let mut nearest = p;
+        for w in self.rim.iter().flat_map(|r| [r.from, r.to]) {
+            if w != nearest
+                && (nearest == p
+                    || compare_lengths(at, self.mesh.at(w), at, self.mesh.at(nearest))
+                        .is_negative())
+            {
+                nearest = w;
+            }
+        }
+        self.mesh.vertices[p as usize].nearest = nearest;
     }
 }

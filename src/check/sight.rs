@@ -3,7 +3,8 @@
 //! Only constrained edges block. Every test is an orientation of stored points.
 
 use super::complex::{Complex, NONE, next, previous, triangle_of};
-use super::condition::{in_diametral_disk, meets_diametral_disk, orient, walk_side};
+use super::condition::{in_diametral_disk, meets_diametral_disk, walk_side};
+use super::predicates::orient;
 use crate::model::{Point2, Sign};
 
 /// Where the walk from the centroid of a triangle to a point ends.

@@ -3,8 +3,9 @@
 use super::checker::{Checker, State};
 use super::claims::subsegments;
 use super::complex::{Kind, NONE, canonical};
-use super::condition::{dot, norm2, vector};
-use super::value::{Number, power_of_two, sign_of};
+use super::predicates::{dot, norm2, vector};
+use super::scale::power_of_two;
+use super::value::{Number, sign_of};
 use crate::model::{Edge, Mesh2, MeshEdge, Point2, SegmentId, VertexId, VertexKind};
 
 impl Checker {

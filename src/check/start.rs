@@ -4,7 +4,8 @@
 //! closed polygon that turns once. Then the number of triangles over a point is constant off the border: 1 inside, 0 outside.
 
 use super::complex::{Complex, Facts, NONE, next, previous, triangle_of};
-use super::condition::{compare_lengths, in_conflict, orient};
+use super::condition::compare_lengths;
+use super::predicates::{in_conflict, orient};
 use super::sight::Search;
 use super::verdict::{Checked, Rule, broken, ensure};
 use crate::model::{Fill, Point2, Region, Segment, VertexId};

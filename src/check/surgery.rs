@@ -1,8 +1,12 @@
 //! Surgery of the replay: flooding a cavity, filling it with a fan, splitting a subsegment, deleting a vertex. Each proves what it does.
+//!
+//! The mesh stays constrained Delaunay. An edge of a fan's rim: its outer triangle was tested by the flood. An edge px of a fan: lifted, p lies below the
+//! planes of all cavity triangles at x, which are convex there, so px is convex too. A filling: each of its edges is tested.
 
 use super::complex::{Complex, Facts, Kind, NONE, canonical, next, numbers, previous, triangle_of};
-use super::condition::{compare_lengths, in_conflict, orient};
-use super::replay::{Replay, Rim, Split, Waiting, birth};
+use super::predicates::{in_conflict, orient};
+use super::replay::{Replay, Rim, Waiting, birth};
+use super::split::Split;
 use super::verdict::{Checked, Rule, broken, ensure};
 use crate::model::{Point2, Triangle};
 use crate::trace::SplitKind;
@@ -81,7 +85,7 @@ impl Replay {
             SplitKind::C { .. } => Kind::C(segment),
         };
         let p = self.mesh.add_vertex(split.p, kind);
-        self.clear_cavity();
+        self.destroyed.iter().for_each(|&t| self.mesh.drop(t));
         // Half-edges at p on each side: from its first end to p, and from p to its other end.
         let mut halves = [[NONE; 2]; 2];
         for i in 0..2 {
@@ -159,38 +163,11 @@ impl Replay {
                 .iter()
                 .map(|&t| canonical(self.mesh.corners(t)))
         };
-        ensure(
-            own().eq(destroyed.iter().map(|&t| numbers(t))),
-            Rule::Flood,
-            || {
-                (
-                    format!("{:?}", own().collect::<Vec<_>>()),
-                    format!(
-                        "{:?}",
-                        destroyed.iter().map(|&t| numbers(t)).collect::<Vec<_>>()
-                    ),
-                )
-            },
-        )
-    }
-
-    /// The cavity is a tree of triangles, and its rim is seen from p.
-    pub(super) fn check_star(&self, p: Point2, surplus: usize) -> Checked {
-        ensure(
-            self.rim.len() == self.destroyed.len() + surplus,
-            Rule::Star,
-            || {
-                (
-                    "a cavity that encloses no vertex",
-                    format!(
-                        "{} triangles, {} edges",
-                        self.destroyed.len(),
-                        self.rim.len()
-                    ),
-                )
-            },
-        )?;
-        self.check_positive(p)
+        let listed = || destroyed.iter().map(|&t| numbers(t));
+        let text = |ids: Vec<[u32; 3]>| format!("{ids:?}");
+        ensure(own().eq(listed()), Rule::Flood, || {
+            (text(own().collect()), text(listed().collect()))
+        })
     }
 
     pub(super) fn check_positive(&self, p: Point2) -> Checked {
@@ -204,28 +181,6 @@ impl Replay {
             })?;
         }
         Ok(())
-    }
-
-    pub(super) fn clear_cavity(&mut self) {
-        for &t in &self.destroyed {
-            self.mesh.drop(t);
-        }
-    }
-
-    /// Freezes R of a new vertex: the nearest vertex on the rim just left.
-    pub(super) fn measure(&mut self, p: u32) {
-        let at = self.mesh.at(p);
-        let mut nearest = p;
-        for w in self.rim.iter().flat_map(|r| [r.from, r.to]) {
-            if w != nearest
-                && (nearest == p
-                    || compare_lengths(at, self.mesh.at(w), at, self.mesh.at(nearest))
-                        .is_negative())
-            {
-                nearest = w;
-            }
-        }
-        self.mesh.vertices[p as usize].nearest = nearest;
     }
 
     /// Deletes a free vertex; the listed triangles fill its star and are locally Delaunay.
@@ -259,7 +214,7 @@ impl Replay {
             ..*self.mesh.facts(t)
         };
         self.check_filling(w)?;
-        self.clear_cavity();
+        self.destroyed.iter().for_each(|&t| self.mesh.drop(t));
         self.links.clear();
         for (i, rim) in self.rim.iter().enumerate() {
             // The outside of a rim edge runs the other way; `i` stands for it.
@@ -275,7 +230,7 @@ impl Replay {
         }
         self.link_filling()?;
         self.mesh.delete_vertex(w.vertex);
-        self.tally.removed += 1;
+        self.ledger.tally.removed += 1;
         let created = self.created.len() - (w.end - w.start);
         for i in created..self.created.len() {
             self.check_locally_delaunay(self.created[i])?;
@@ -318,8 +273,7 @@ impl Replay {
         let key = |l: &Link| (l.0.min(l.1), l.0.max(l.1), l.0 > l.1);
         self.links.sort_unstable_by_key(key);
         for i in (0..self.links.len()).step_by(2) {
-            let pair = (self.links[i], self.links.get(i + 1).copied());
-            let (a, Some(b)) = pair else {
+            let (a, Some(b)) = (self.links[i], self.links.get(i + 1).copied()) else {
                 return broken(Rule::Star, "edges in pairs", "one left over");
             };
             ensure((a.0, a.1) == (b.1, b.0), Rule::Star, || {

@@ -6,8 +6,10 @@
 //! bounds follow the usual rules (Higham, running error analysis). The bounds are themselves rounded, which loses at most a
 //! factor 1 + 2^-20 over any formula here; `sign` pays for it. Underflow costs at most `TINY` a product.
 
+pub use super::exact::{Exact, exact_sign};
+use super::scale::power_of_two;
 use crate::model::Sign;
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, Mul, Sub};
 
 /// A number that formulas can be written over.
 pub trait Number: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
@@ -155,156 +157,5 @@ impl Number for Approx {
     }
 }
 
-/// 2^`exponent` as a f64; 0 or infinity outside its range.
-pub fn power_of_two(exponent: i32) -> f64 {
-    match exponent {
-        1024.. => f64::INFINITY,
-        -1022..=1023 => f64::from_bits(((exponent + 1023) as u64) << 52),
-        -1074..=-1023 => f64::from_bits(1 << (exponent + 1074)),
-        _ => 0.0,
-    }
-}
-
-#[cfg(feature = "exact")]
-mod rational {
-    pub use rug::Rational;
-
-    pub fn from_f64(x: f64) -> Rational {
-        // Finite by the callers' checks of every coordinate and parameter; a NaN would only be a wrong 0 here.
-        Rational::from_f64(x).unwrap_or_default()
-    }
-
-    pub fn shift(x: Rational, exponent: i32) -> Rational {
-        x << exponent
-    }
-
-    pub fn cmp0(x: &Rational) -> std::cmp::Ordering {
-        x.cmp0()
-    }
-}
-
-#[cfg(not(feature = "exact"))]
-mod rational {
-    use dashu_int::{IBig, UBig};
-    pub use dashu_ratio::Relaxed as Rational;
-
-    pub fn from_f64(x: f64) -> Rational {
-        // Finite by the callers' checks of every coordinate and parameter; a NaN would only be a wrong 0 here.
-        Rational::try_from(x).unwrap_or(Rational::ZERO)
-    }
-
-    pub fn shift(x: Rational, exponent: i32) -> Rational {
-        let power = UBig::ONE << exponent.unsigned_abs() as usize;
-        let factor = IBig::from(power);
-        if exponent >= 0 {
-            x * factor
-        } else {
-            x / factor
-        }
-    }
-
-    pub fn cmp0(x: &Rational) -> std::cmp::Ordering {
-        x.cmp(&Rational::ZERO)
-    }
-}
-
-/// A rational number.
-#[derive(Clone, Debug)]
-pub struct Exact(pub(crate) rational::Rational);
-
-impl Add for Exact {
-    type Output = Exact;
-    fn add(self, other: Exact) -> Exact {
-        Exact(self.0 + other.0)
-    }
-}
-
-impl Sub for Exact {
-    type Output = Exact;
-    fn sub(self, other: Exact) -> Exact {
-        Exact(self.0 - other.0)
-    }
-}
-
-impl Mul for Exact {
-    type Output = Exact;
-    fn mul(self, other: Exact) -> Exact {
-        Exact(self.0 * other.0)
-    }
-}
-
-impl Div for Exact {
-    type Output = Exact;
-    /// The divisor is not 0.
-    fn div(self, other: Exact) -> Exact {
-        Exact(self.0 / other.0)
-    }
-}
-
-impl Number for Exact {
-    fn scaled(x: f64, exponent: i32) -> Exact {
-        Exact(rational::shift(rational::from_f64(x), exponent))
-    }
-
-    fn sign(&self) -> Option<Sign> {
-        Some(exact_sign(self))
-    }
-}
-
-/// The sign of a rational.
-pub fn exact_sign(x: &Exact) -> Sign {
-    match rational::cmp0(&x.0) {
-        std::cmp::Ordering::Less => Sign::Negative,
-        std::cmp::Ordering::Equal => Sign::Zero,
-        std::cmp::Ordering::Greater => Sign::Positive,
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn shape<N: Number>(a: f64, b: f64, c: f64, d: f64) -> N {
-        N::of(a) * N::of(b) - N::of(c) * N::of(d)
-    }
-
-    #[test]
-    fn bounds_never_lie() {
-        let mut state = 1u64;
-        let mut random = move || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-        };
-        let (mut decided, mut open) = (0, 0);
-        for n in 0..20_000 {
-            let a = random();
-            let near = power_of_two(-(n % 60));
-            let (b, c) = (random(), random());
-            let d = a * b / c + random() * near;
-            match shape::<Approx>(a, b, c, d).sign() {
-                Some(s) => {
-                    assert_eq!(s, exact_sign(&shape::<Exact>(a, b, c, d)));
-                    decided += 1;
-                }
-                None => open += 1,
-            }
-        }
-        assert!(
-            decided > 10_000 && open > 1_000,
-            "{decided} decided, {open} open"
-        );
-    }
-
-    #[test]
-    fn small_integers_are_exact() {
-        let zero = |a: f64, b: f64| {
-            (Approx::of(a) - Approx::of(b)).square() - (Approx::of(b) - Approx::of(a)).square()
-        };
-        assert_eq!(zero(3.0, 8.0).sign(), Some(Sign::Zero));
-        assert_eq!(zero(0.1, 0.3).sign(), None);
-        assert_eq!(Approx::scaled(1.0, 2000).sign(), None);
-        assert_eq!(Exact::scaled(1.0, 2000).sign(), Some(Sign::Positive));
-    }
-}
+mod tests;

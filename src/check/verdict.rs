@@ -187,3 +187,13 @@ pub fn ensure<E: Into<String>, F: Into<String>>(
     let (expected, found) = texts();
     broken(rule, expected, found)
 }
+
+/// Gives a broken rule its place.
+pub fn placed(broken: Broken, event: Place) -> Rejection {
+    Rejection {
+        event,
+        rule: broken.rule,
+        expected: broken.expected,
+        found: broken.found,
+    }
+}

@@ -3,8 +3,9 @@
 //! A value is P + Q sqrt(D) with rational P, Q, D. It is never rounded in steps: to compare it with a rational m, the sign of (P - m) + Q sqrt(D)
 //! follows from the signs of both terms and, where they differ, from their squares. x is the rounded value iff it lies between the middles of x and its neighbors.
 
-use crate::check::condition::{Corners, center, norm2, vector};
-use crate::check::value::{Exact, Number, exact_sign, power_of_two};
+use crate::check::predicates::{Corners, center, norm2, vector};
+use crate::check::scale::power_of_two;
+use crate::check::value::{Exact, Number, exact_sign};
 use crate::model::{Point2, Sign};
 
 /// P + Q sqrt(D).
@@ -180,7 +181,7 @@ fn offcenter_of(t: Corners, kappa: f64) -> [Exact; 2] {
     let [dx, dy] = vector::<Exact>(t[0], t[1]);
     let normal = [Exact::of(0.0) - dy, dx];
     let to_o = [o[0].clone() - m(0), o[1].clone() - m(1)];
-    let along = crate::check::condition::dot(&to_o, &normal);
+    let along = crate::check::predicates::dot(&to_o, &normal);
     let kappa = Exact::of(kappa);
     if exact_sign(&(along - kappa.clone() * norm2(&normal))).is_positive() {
         let [nx, ny] = normal;

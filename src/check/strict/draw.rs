@@ -1,6 +1,6 @@
 //! The checker's own Philox4x32-10. Source: Salmon, Moraes, Dror, Shaw (SC 2011); numbers of a step by `docs/trace-format.md`, Draws.
 
-use crate::check::value::power_of_two;
+use crate::check::scale::power_of_two;
 
 /// The four words of draw n of a stream in a step.
 pub fn words(seed: u64, step: u32, n: u32, stream: u32) -> [u32; 4] {

@@ -8,10 +8,10 @@ mod draw;
 mod queue;
 
 use super::complex::{Kind, NONE, canonical, next, numbers, triangle_of};
-use super::condition::{
-    in_circle, in_conflict, is_shell_exponent, is_skinny, orient, shortest_edge,
-};
-use super::replay::{Replay, Scale};
+use super::condition::{is_shell_exponent, is_skinny, shortest_edge};
+use super::predicates::{in_circle, in_conflict, orient};
+use super::replay::Replay;
+use super::scale::Scale;
 use super::sight::{Aim, Arrival, Crossing, walk};
 use super::verdict::{Checked, Rule, broken, ensure};
 use crate::model::{
@@ -41,7 +41,7 @@ fn badness(cause: Cause) -> Badness {
 impl Strict {
     /// The state at the start.
     pub fn new(replay: &Replay) -> Strict {
-        let order = replay.parameters.order;
+        let order = replay.ledger.parameters.order;
         let mut strict = Strict {
             skinny: Queue::new(order),
             oversized: Queue::new(order),
@@ -55,7 +55,7 @@ impl Strict {
     }
 
     fn classify(&mut self, replay: &Replay, t: u32) {
-        if is_skinny(replay.mesh.places(t), replay.parameters.rho2) {
+        if is_skinny(replay.mesh.places(t), replay.ledger.parameters.rho2) {
             self.skinny.push(Entry::new(replay, t, Badness::Skinny));
         }
         if replay.is_too_large(t) {
@@ -192,7 +192,7 @@ impl Strict {
 
     /// The Type-A point of a triangle (canonical); `None` for a user's.
     fn type_a(&self, replay: &Replay, ids: [u32; 3]) -> Option<construct::Place> {
-        let p = &replay.parameters;
+        let p = &replay.ledger.parameters;
         let t = ids.map(|v| replay.mesh.at(v));
         let from = |k: usize| [t[k], t[(k + 1) % 3], t[(k + 2) % 3]];
         let seed = p.seed.unwrap_or(0);
@@ -226,9 +226,10 @@ impl Strict {
         [u, v]: [u32; 2],
         type_c: bool,
     ) -> Option<construct::Place> {
-        let p = &replay.parameters;
+        let p = &replay.ledger.parameters;
         let is_apex = |v: u32| {
-            p.small_angles == SmallAngles::Shells && replay.apexes.get(v as usize) == Some(&true)
+            p.small_angles == SmallAngles::Shells
+                && replay.ledger.apexes.get(v as usize) == Some(&true)
         };
         let [pu, pv] = [u, v].map(|v| replay.mesh.at(v));
         match (is_apex(u), is_apex(v)) {
@@ -298,9 +299,10 @@ impl Strict {
         let ends = [u.min(v), u.max(v)];
         let witnesses = seen_witnesses(replay, s);
         if replay
+            .ledger
             .parameters
             .max_splits
-            .is_some_and(|limit| replay.splits[segment as usize] >= limit)
+            .is_some_and(|limit| replay.ledger.splits[segment as usize] >= limit)
         {
             return Forced::Skip(SkipReason::SplitLimit {
                 segment: SegmentId(segment),
@@ -336,7 +338,7 @@ enum Forced {
 fn excusing_apex(replay: &Replay, t: u32) -> Option<u32> {
     let k = shortest_edge(replay.mesh.places(t), replay.mesh.corners(t)) as u32;
     let e = 4 * t + k;
-    let by_rung = replay.rungs[replay.mesh.origin(e) as usize].map(|r| r.0);
+    let by_rung = replay.ledger.rungs[replay.mesh.origin(e) as usize].map(|r| r.0);
     [by_rung, Some(replay.mesh.apex(e))]
         .into_iter()
         .flatten()
@@ -369,7 +371,7 @@ fn splits_well(replay: &mut Replay, s: u32, p: Point2, witnesses: &[u32]) -> boo
         return false;
     }
     let [u, v] = [mesh.origin(s), mesh.target(s)].map(|v| mesh.at(v));
-    let policy = replay.parameters.deletion;
+    let policy = replay.ledger.parameters.deletion;
     let crosses = if policy == DeletionPolicy::Disk {
         Crossing::All
     } else {

@@ -1,7 +1,8 @@
 //! The queues of bad triangles, in the order of `docs/trace-format.md`, decided exactly.
 
 use crate::check::complex::canonical;
-use crate::check::condition::{area2, distance2, shortest_edge};
+use crate::check::condition::{distance2, shortest_edge};
+use crate::check::predicates::area2;
 use crate::check::replay::Replay;
 use crate::check::value::{Number, sign_of};
 use crate::model::{Point2, QueueOrder, Sign};
