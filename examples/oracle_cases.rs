@@ -16,18 +16,9 @@ fn shuffled(n: usize, draw: &mut SplitMix64) -> Vec<usize> {
     order
 }
 
-fn write_case(
-    out: &mut impl Write,
-    name: &str,
-    g: &Pslg,
-    order: &[usize],
-    segments: &[usize],
-) -> std::io::Result<()> {
+fn write_case(out: &mut impl Write, name: &str, g: &Pslg, order: &[usize], segments: &[usize]) -> std::io::Result<()> {
     let mut place = vec![0; order.len()];
-    order
-        .iter()
-        .enumerate()
-        .for_each(|(new, &old)| place[old] = new);
+    order.iter().enumerate().for_each(|(new, &old)| place[old] = new);
     writeln!(out, "case {name} {} {} 0", order.len(), segments.len())?;
     for &v in order {
         writeln!(out, "{v} {:?} {:?}", g.points[v].x, g.points[v].y)?;
@@ -39,20 +30,9 @@ fn write_case(
     Ok(())
 }
 
-fn write_graph(
-    out: &mut impl Write,
-    name: &str,
-    g: &Pslg,
-    draw: &mut SplitMix64,
-) -> std::io::Result<()> {
+fn write_graph(out: &mut impl Write, name: &str, g: &Pslg, draw: &mut SplitMix64) -> std::io::Result<()> {
     let (n, m) = (g.points.len(), g.segments.len());
-    write_case(
-        out,
-        name,
-        g,
-        &(0..n).collect::<Vec<_>>(),
-        &(0..m).collect::<Vec<_>>(),
-    )?;
+    write_case(out, name, g, &(0..n).collect::<Vec<_>>(), &(0..m).collect::<Vec<_>>())?;
     for _ in 0..2 {
         let (order, segments) = (shuffled(n, draw), shuffled(m, draw));
         write_case(out, name, g, &order, &segments)?;
@@ -61,10 +41,7 @@ fn write_graph(
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let numbers: Vec<u64> = std::env::args()
-        .skip(1)
-        .map(|a| a.parse())
-        .collect::<Result<_, _>>()?;
+    let numbers: Vec<u64> = std::env::args().skip(1).map(|a| a.parse()).collect::<Result<_, _>>()?;
     let &[first, count] = &numbers[..] else {
         return Err("usage: oracle_cases FIRST_SEED COUNT".into());
     };
@@ -73,20 +50,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut draw = SplitMix64(seed);
         let n = 3 + draw.below(120) as usize;
         for family in PointFamily::ALL {
-            let g = Pslg {
-                points: points(family, n, &mut draw),
-                ..Pslg::default()
-            };
+            let g = Pslg { points: points(family, n, &mut draw), ..Pslg::default() };
             write_graph(&mut out, &format!("{family:?}-{seed}"), &g, &mut draw)?;
         }
         for family in PslgFamily::all() {
             let g = pslg(family, n, &mut draw);
-            write_graph(
-                &mut out,
-                &format!("{family:?}-{seed}").replace(['(', ')'], "."),
-                &g,
-                &mut draw,
-            )?;
+            write_graph(&mut out, &format!("{family:?}-{seed}").replace(['(', ')'], "."), &g, &mut draw)?;
         }
     }
     Ok(out.flush()?)

@@ -49,9 +49,7 @@ fn clustered(n: usize) -> Vec<Point2> {
 fn grid(n: usize, step: f64) -> Vec<Point2> {
     let side = n.isqrt();
     let at = |i: usize| i as f64 * step;
-    (0..side * side)
-        .map(|i| Point2::new(at(i % side), at(i / side)))
-        .collect()
+    (0..side * side).map(|i| Point2::new(at(i % side), at(i / side))).collect()
 }
 
 fn sorted(n: usize) -> Vec<Point2> {
@@ -63,9 +61,7 @@ fn sorted(n: usize) -> Vec<Point2> {
 /// n/2 edges of the Delaunay triangulation of the first third of the points: none crosses another, most are edges of no other triangulation.
 fn segments(points: &[Point2], n: usize) -> Vec<[VertexId; 2]> {
     let m = Cdt::delaunay(points[..n / 3].to_vec()).expect("random points differ");
-    let edges = m
-        .triangles()
-        .flat_map(|t| m.edges(t).map(|e| [m.origin(e), m.destination(e)]));
+    let edges = m.triangles().flat_map(|t| m.edges(t).map(|e| [m.origin(e), m.destination(e)]));
     let mut edges: Vec<_> = edges.filter(|[u, v]| u < v).take(n / 2).collect();
     let mut draw = Draw(3);
     for i in (1..edges.len()).rev() {
@@ -77,10 +73,7 @@ fn segments(points: &[Point2], n: usize) -> Vec<[VertexId; 2]> {
 fn report(name: &str, n: usize, repetitions: usize, mut run: impl FnMut() -> f64) {
     let mut seconds: Vec<f64> = (0..repetitions).map(|_| run()).collect();
     seconds.sort_by(f64::total_cmp);
-    println!(
-        "{name:28} {n:9} {:8.3} us a point",
-        seconds[repetitions / 2] * 1e6 / n as f64
-    );
+    println!("{name:28} {n:9} {:8.3} us a point", seconds[repetitions / 2] * 1e6 / n as f64);
 }
 
 fn time<T>(run: impl FnOnce() -> T) -> (f64, T) {
@@ -101,11 +94,7 @@ const FAMILIES: [Family; 5] = [
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
-    let mut number = |default: usize| {
-        arguments
-            .next()
-            .map_or(default, |a| a.parse().expect("a number"))
-    };
+    let mut number = |default: usize| arguments.next().map_or(default, |a| a.parse().expect("a number"));
     let (n, repetitions) = (number(1_000_000), number(5));
     let only = arguments.next();
     let wanted = |name: &str| only.as_ref().is_none_or(|only| only == name);
@@ -142,11 +131,7 @@ fn constrain(n: usize, repetitions: usize) {
     });
     constrain.sort_by(f64::total_cmp);
     let each = constrain[repetitions / 2] * 1e6 / segments.len() as f64;
-    println!(
-        "{:28} {:9} {each:8.3} us a segment",
-        "  of which constrain",
-        segments.len()
-    );
+    println!("{:28} {:9} {each:8.3} us a segment", "  of which constrain", segments.len());
 }
 
 fn insert_and_remove(n: usize) {
@@ -169,16 +154,8 @@ fn insert_and_remove(n: usize) {
         near = change.created[0];
     }
     let each = |seconds: f64| seconds * 1e6 / n as f64;
-    println!(
-        "{:28} {n:9} {:8.3} us a point",
-        "random order: locate",
-        each(locate)
-    );
-    println!(
-        "{:28} {n:9} {:8.3} us a point",
-        "random order: insert",
-        each(insert)
-    );
+    println!("{:28} {n:9} {:8.3} us a point", "random order: locate", each(locate));
+    println!("{:28} {n:9} {:8.3} us a point", "random order: insert", each(insert));
     let (seconds, ()) = time(|| added.iter().for_each(|&v| m.remove(v, &mut change)));
     println!("{:28} {n:9} {:8.3} us a point", "remove", each(seconds));
 }

@@ -28,11 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     while words.next().is_some() {
         let mut word = || words.next().ok_or("the stream ends within a case");
         let name = word()?;
-        let [n, m, h] = [
-            word()?.parse::<usize>()?,
-            word()?.parse()?,
-            word()?.parse()?,
-        ];
+        let [n, m, h] = [word()?.parse::<usize>()?, word()?.parse()?, word()?.parse()?];
         let mut labels: Vec<i64> = Vec::new();
         let mut points = Vec::new();
         for _ in 0..n {
@@ -42,28 +38,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut segments = Vec::new();
         for _ in 0..m {
             let ends = [VertexId(word()?.parse()?), VertexId(word()?.parse()?)];
-            segments.push(Segment {
-                ends,
-                marker: 0,
-                toggles: true,
-            });
+            segments.push(Segment { ends, marker: 0, toggles: true });
         }
         for _ in 0..2 * h {
             word()?;
         }
-        let pslg = Pslg {
-            points,
-            segments,
-            ..Pslg::default()
-        };
+        let pslg = Pslg { points, segments, ..Pslg::default() };
         let Some(t) = triangulate(&pslg) else {
             writeln!(out, "case {name} refused")?;
             continue;
         };
-        let mut triangles: Vec<[i64; 3]> = t
-            .triangles()
-            .map(|f| t.vertices(f).map(|v| labels[v.index()]))
-            .collect();
+        let mut triangles: Vec<[i64; 3]> = t.triangles().map(|f| t.vertices(f).map(|v| labels[v.index()])).collect();
         triangles.iter_mut().for_each(|t| t.sort_unstable());
         triangles.sort_unstable();
         writeln!(out, "case {name} {}", triangles.len())?;

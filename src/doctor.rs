@@ -6,8 +6,7 @@
 
 use crate::arith::Kernel;
 use crate::domain::{
-    Element, Finding, Findings, Kind, Prepared, angle_notes, merge_findings, normalise, prepare,
-    small_angles,
+    Element, Finding, Findings, Kind, Prepared, angle_notes, merge_findings, normalise, prepare, small_angles,
 };
 use crate::model::{Fill, Lines, Point2, Pslg, SegmentId, VertexId};
 use crate::triangulation::cdt2::{BuildError, CarveError, Cdt2, Seed};
@@ -33,10 +32,7 @@ pub fn examine<K: Kernel>(pslg: &Pslg, lines: &Lines) -> Prepared {
                 merge_findings(&mut prepared.findings, notes);
             }
             Err(errors) => {
-                let errors = errors
-                    .iter()
-                    .map(|e| carve_finding(e, pslg, lines))
-                    .collect();
+                let errors = errors.iter().map(|e| carve_finding(e, pslg, lines)).collect();
                 merge_findings(&mut prepared.findings, errors);
             }
         }
@@ -97,38 +93,18 @@ fn hull_and<K: Kernel>(pslg: &Pslg, cdt: &Cdt2<K>) -> Vec<[VertexId; 2]> {
     let mut known: Vec<[VertexId; 2]> = pslg.segments.iter().map(|s| key(s.ends)).collect();
     known.sort_unstable();
     let halves = cdt.triangles().flat_map(|t| cdt.edges(t));
-    let hull = halves
-        .filter(|&e| cdt.twin(e).is_none())
-        .map(|e| [cdt.origin(e), cdt.destination(e)]);
+    let hull = halves.filter(|&e| cdt.twin(e).is_none()).map(|e| [cdt.origin(e), cdt.destination(e)]);
     let new = hull.filter(|&e| known.binary_search(&key(e)).is_err());
     pslg.segments.iter().map(|s| s.ends).chain(new).collect()
 }
 
 /// Notes of the vertices and segments in no triangle of the region.
-fn outside<K: Kernel>(
-    pslg: &Pslg,
-    origin: &[SegmentId],
-    lines: &Lines,
-    cdt: &Cdt2<K>,
-) -> Vec<Finding> {
+fn outside<K: Kernel>(pslg: &Pslg, origin: &[SegmentId], lines: &Lines, cdt: &Cdt2<K>) -> Vec<Finding> {
     let mut findings = Findings::default();
-    for (v, at) in (0u32..)
-        .map(VertexId)
-        .zip(&pslg.points)
-        .filter(|(v, _)| cdt.edge_from(*v).is_none())
-    {
+    for (v, at) in (0u32..).map(VertexId).zip(&pslg.points).filter(|(v, _)| cdt.edge_from(*v).is_none()) {
         findings.add(Kind::Outside, || {
-            let message = format!(
-                "vertex {} at ({}, {}) lies outside of what is meshed",
-                v.0, at.x, at.y
-            );
-            Finding::new(
-                Kind::Outside,
-                vec![Element::Vertex(v)],
-                vec![*at],
-                lines,
-                message,
-            )
+            let message = format!("vertex {} at ({}, {}) lies outside of what is meshed", v.0, at.x, at.y);
+            Finding::new(Kind::Outside, vec![Element::Vertex(v)], vec![*at], lines, message)
         });
     }
     let mut last = None;
@@ -140,17 +116,8 @@ fn outside<K: Kernel>(
         last = Some(from); // several parts of a segment, one finding
         findings.add(Kind::Outside, || {
             let at = segment.ends.map(|v| pslg.points[v.index()]).to_vec();
-            let message = format!(
-                "segment {} lies outside of what is meshed, at least in part",
-                from.0
-            );
-            Finding::new(
-                Kind::Outside,
-                vec![Element::Segment(from)],
-                at,
-                lines,
-                message,
-            )
+            let message = format!("segment {} lies outside of what is meshed, at least in part", from.0);
+            Finding::new(Kind::Outside, vec![Element::Segment(from)], at, lines, message)
         });
     }
     findings.finish()

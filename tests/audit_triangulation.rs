@@ -7,18 +7,8 @@ use orthoball::triangulation::cdt2::Cdt2;
 use proptest::prelude::*;
 
 fn audited(points: &[Point2], triangles: &[[VertexId; 3]], claims: &[Claim]) -> Report {
-    let subject = Subject {
-        points,
-        triangles,
-        ..Subject::default()
-    };
-    audit(
-        &subject,
-        &Options {
-            claims,
-            ..Options::default()
-        },
-    )
+    let subject = Subject { points, triangles, ..Subject::default() };
+    audit(&subject, &Options { claims, ..Options::default() })
 }
 
 fn verdicts(report: &Report) -> Vec<Verdict> {
@@ -27,9 +17,7 @@ fn verdicts(report: &Report) -> Vec<Verdict> {
 
 /// Points of a small grid (many cocircular), normalised.
 fn grid() -> impl Strategy<Value = Vec<Point2>> {
-    let all: Vec<Point2> = (0..36)
-        .map(|i| Point2::new(f64::from(i % 6) / 8.0, f64::from(i / 6) / 8.0))
-        .collect();
+    let all: Vec<Point2> = (0..36).map(|i| Point2::new(f64::from(i % 6) / 8.0, f64::from(i / 6) / 8.0)).collect();
     prop::sample::subsequence(all, 4..20).prop_shuffle()
 }
 

@@ -92,26 +92,13 @@ impl Uniform {
 /// The constants as plain numbers: C1, C2, C3, C4, B1, B2, B3, B4.
 fn plain(c: &Constants) -> [f64; 8] {
     let c4 = c.c4.as_ref().map_or(f64::INFINITY, Scalar::display);
-    [
-        c.c1.display(),
-        c.c2.display(),
-        c.c3.display(),
-        c4,
-        c.b1.display(),
-        c.b2.display(),
-        c.b3.display(),
-        c.b4.display(),
-    ]
+    [c.c1.display(), c.c2.display(), c.c3.display(), c4, c.b1.display(), c.b2.display(), c.b3.display(), c.b4.display()]
 }
 
 /// One round of (5.11)-(5.19) as an operator on bounds.
 fn round([c1, c2, c3, c4, b1, b2, b3, b4]: [f64; 8], [a, b, c]: [f64; 3]) -> [f64; 3] {
     let m = a.max(b).max(c);
-    [
-        b1 + m / c1,
-        (b2 + a / c2).max(b3 + b.max(c) / c3),
-        b4 + b.max(c) / c4,
-    ]
+    [b1 + m / c1, (b2 + a / c2).max(b3 + b.max(c) / c3), b4 + b.max(c) / c4]
 }
 
 /// Iterates the system from the densities of input vertices; `None` if the bounds exceed 10^6.
@@ -133,28 +120,12 @@ fn least_fixed_point(c: [f64; 8]) -> Option<[f64; 3]> {
 #[test]
 fn e1_formula_5_23_gives_the_printed_columns() {
     for row in &TABLE {
-        let bounds = Constants::new(&selection(row), C2::Printed, B2::Printed)
-            .printed()
-            .expect("C1, C3 exceed 1 in every row");
+        let bounds =
+            Constants::new(&selection(row), C2::Printed, B2::Printed).printed().expect("C1, C3 exceed 1 in every row");
         let [a, b, c] = row.bounds;
-        assert!(
-            to_two_decimals(&bounds.a, a),
-            "row {}: D_A {} {a}",
-            row.number,
-            bounds.a.display()
-        );
-        assert!(
-            to_two_decimals(&bounds.b, b),
-            "row {}: D_B {} {b}",
-            row.number,
-            bounds.b.display()
-        );
-        assert!(
-            to_two_decimals(&bounds.c, c),
-            "row {}: D_C {} {c}",
-            row.number,
-            bounds.c.display()
-        );
+        assert!(to_two_decimals(&bounds.a, a), "row {}: D_A {} {a}", row.number, bounds.a.display());
+        assert!(to_two_decimals(&bounds.b, b), "row {}: D_B {} {b}", row.number, bounds.b.display());
+        assert!(to_two_decimals(&bounds.c, c), "row {}: D_C {} {c}", row.number, bounds.c.display());
     }
 }
 
@@ -163,12 +134,7 @@ fn e1_every_printed_row_violates_the_system() {
     for (row, corrected) in TABLE.iter().zip(&CORRECTED) {
         let constants = Constants::new(&selection(row), C2::Printed, B2::Printed);
         let bounds = constants.printed().expect("C1, C3 exceed 1 in every row");
-        assert_eq!(
-            constants.violated(&bounds),
-            corrected.fails,
-            "row {}",
-            row.number
-        );
+        assert_eq!(constants.violated(&bounds), corrected.fails, "row {}", row.number);
         // the sharper C2 does not rescue it
         let sharp = Constants::new(&selection(row), C2::Sharp, B2::Printed);
         let bounds = sharp.printed().expect("C1, C3 exceed 1 in every row");
@@ -189,10 +155,7 @@ fn e1_no_admissible_parameters_satisfy_the_system_by_5_23() {
             };
             defined += 1;
             let violated = constants.violated(&bounds);
-            assert!(
-                violated.contains(&I5_12) || violated.contains(&I5_14),
-                "{s:?}"
-            );
+            assert!(violated.contains(&I5_12) || violated.contains(&I5_14), "{s:?}");
         }
     }
     assert!(defined > 3000, "{defined}");
@@ -200,39 +163,18 @@ fn e1_no_admissible_parameters_satisfy_the_system_by_5_23() {
 
 #[test]
 fn e3_the_least_solution_of_every_row() {
-    let check = |row: &Row, constants: &Constants, expected: Option<(f64, f64)>, c: f64| match (
-        constants.least(),
-        expected,
-    ) {
-        (None, None) => false,
-        (Some(bounds), Some((a, b))) => {
-            assert!(
-                to_two_decimals(&bounds.a, a),
-                "row {}: {} {a}",
-                row.number,
-                bounds.a.display()
-            );
-            assert!(
-                to_two_decimals(&bounds.b, b),
-                "row {}: {} {b}",
-                row.number,
-                bounds.b.display()
-            );
-            assert!(
-                to_two_decimals(&bounds.c, c),
-                "row {}: {} {c}",
-                row.number,
-                bounds.c.display()
-            );
-            assert_eq!(constants.violated(&bounds), [], "row {}", row.number);
-            true
-        }
-        (ours, expected) => panic!(
-            "row {}: {} against {expected:?}",
-            row.number,
-            ours.is_some()
-        ),
-    };
+    let check =
+        |row: &Row, constants: &Constants, expected: Option<(f64, f64)>, c: f64| match (constants.least(), expected) {
+            (None, None) => false,
+            (Some(bounds), Some((a, b))) => {
+                assert!(to_two_decimals(&bounds.a, a), "row {}: {} {a}", row.number, bounds.a.display());
+                assert!(to_two_decimals(&bounds.b, b), "row {}: {} {b}", row.number, bounds.b.display());
+                assert!(to_two_decimals(&bounds.c, c), "row {}: {} {c}", row.number, bounds.c.display());
+                assert_eq!(constants.violated(&bounds), [], "row {}", row.number);
+                true
+            }
+            (ours, expected) => panic!("row {}: {} against {expected:?}", row.number, ours.is_some()),
+        };
     let mut finite = [0; 3];
     for (row, corrected) in TABLE.iter().zip(&CORRECTED) {
         let s = selection(row);
@@ -242,18 +184,10 @@ fn e3_the_least_solution_of_every_row() {
             (C2::Sharp, B2::Refined, corrected.refined),
         ];
         for (i, (c2, b2, expected)) in kinds.into_iter().enumerate() {
-            finite[i] += i32::from(check(
-                row,
-                &Constants::new(&s, c2, b2),
-                expected,
-                corrected.c,
-            ));
+            finite[i] += i32::from(check(row, &Constants::new(&s, c2, b2), expected, corrected.c));
         }
         // the bound of Type-C stands by itself here: C4 is infinite
-        assert!(to_two_decimals(
-            &Constants::new(&s, C2::Sharp, B2::Refined).b4,
-            corrected.c
-        ));
+        assert!(to_two_decimals(&Constants::new(&s, C2::Sharp, B2::Refined).b4, corrected.c));
     }
     assert_eq!(finite, [12, 24, 24]);
 }
@@ -267,12 +201,7 @@ fn e3_published_densities_are_below_every_corrected_bound() {
         for observed in [row.extreme, row.random] {
             for (density, bound) in observed.iter().zip([&bounds.a, &bounds.b, &bounds.c]) {
                 // equal only where mu = 1: D_C = 1
-                assert_eq!(
-                    Enclosure::of(*density).at_most(bound),
-                    Some(true),
-                    "row {}",
-                    row.number
-                );
+                assert_eq!(Enclosure::of(*density).at_most(bound), Some(true), "row {}", row.number);
             }
         }
     }
@@ -291,23 +220,14 @@ fn e2_a_finite_solution_exists_exactly_if_four_cycles_exceed_one() {
             uniform.between(0.3, 1.0),
         );
         s.cos2 = Some(Rational::of(uniform.between(0.0, 0.12)));
-        let c2 = if uniform.draw() < 0.5 {
-            C2::Printed
-        } else {
-            C2::Sharp
-        };
+        let c2 = if uniform.draw() < 0.5 { C2::Printed } else { C2::Sharp };
         let constants = Constants::new(&s, c2, B2::Printed);
-        let conditions =
-            s.c1_above_one() && s.c3_above_one() && s.c4_above_one() && s.c1c2_above_one(c2);
+        let conditions = s.c1_above_one() && s.c3_above_one() && s.c4_above_one() && s.c1c2_above_one(c2);
         assert_eq!(constants.least().is_some(), conditions);
         // products within 10^-3 of one converge too slowly to be told from divergence
         let [c1, c2, c3, c4, ..] = plain(&constants);
         if [c1, c3, c4, c1 * c2].iter().all(|c| (c - 1.0).abs() > 1e-3) {
-            assert_eq!(
-                least_fixed_point(plain(&constants)).is_some(),
-                conditions,
-                "{s:?}"
-            );
+            assert_eq!(least_fixed_point(plain(&constants)).is_some(), conditions, "{s:?}");
             counts[usize::from(conditions)] += 1;
         }
     }
@@ -318,25 +238,14 @@ fn e2_a_finite_solution_exists_exactly_if_four_cycles_exceed_one() {
 fn e2_the_angle_bounds_are_25_66_and_26_565_degrees() {
     // with d1 = d2 = 1: rho > 2/sqrt 3 as printed, rho > sqrt 5/2 sharp
     let chew = |rho2: f64| Selection::of(rho2, 1.0, 1.0, 1.0);
-    assert!(
-        !chew(1.333_333).c1c2_above_one(C2::Printed) && chew(1.333_334).c1c2_above_one(C2::Printed)
-    );
-    assert!(
-        !chew(1.25).c1c2_above_one(C2::Sharp) && chew(1.25f64.next_up()).c1c2_above_one(C2::Sharp)
-    );
+    assert!(!chew(1.333_333).c1c2_above_one(C2::Printed) && chew(1.333_334).c1c2_above_one(C2::Printed));
+    assert!(!chew(1.25).c1c2_above_one(C2::Sharp) && chew(1.25f64.next_up()).c1c2_above_one(C2::Sharp));
     let theta = |rho2: f64| (0.5 / rho2.sqrt()).asin().to_degrees();
-    assert_eq!(
-        format!("{:.2} {:.3}", theta(4.0 / 3.0), theta(1.25)),
-        "25.66 26.565"
-    );
+    assert_eq!(format!("{:.2} {:.3}", theta(4.0 / 3.0), theta(1.25)), "25.66 26.565");
     // I-1..I-5 hold at theta = 29 degrees, and no finite solution exists
     let near_30 = chew(1.0 / (4.0 * 29f64.to_radians().sin().powi(2)));
     assert!(near_30.c1_above_one() && near_30.c3_above_one() && near_30.c4_above_one());
-    assert!(
-        Constants::new(&near_30, C2::Sharp, B2::Refined)
-            .least()
-            .is_none()
-    );
+    assert!(Constants::new(&near_30, C2::Sharp, B2::Refined).least().is_none());
 }
 
 #[test]
@@ -344,12 +253,7 @@ fn e2_the_sharp_condition_implies_those_of_c1_and_c3() {
     let mut uniform = Uniform(3);
     let mut hits = 0;
     for _ in 0..20_000 {
-        let s = Selection::of(
-            uniform.between(0.3, 4.0),
-            uniform.between(0.3, 1.0),
-            uniform.between(0.3, 1.0),
-            1.0,
-        );
+        let s = Selection::of(uniform.between(0.3, 4.0), uniform.between(0.3, 1.0), uniform.between(0.3, 1.0), 1.0);
         if s.c1c2_above_one(C2::Sharp) {
             hits += 1;
             assert!(s.c1_above_one() && s.c3_above_one());
@@ -364,11 +268,7 @@ fn e3_the_closed_form_is_the_iterated_fixed_point() {
     let mut finite = 0;
     for _ in 0..2000 {
         let s = uniform.admissible();
-        for (c2, b2) in [
-            (C2::Printed, B2::Printed),
-            (C2::Sharp, B2::Printed),
-            (C2::Sharp, B2::Refined),
-        ] {
+        for (c2, b2) in [(C2::Printed, B2::Printed), (C2::Sharp, B2::Printed), (C2::Sharp, B2::Refined)] {
             let constants = Constants::new(&s, c2, b2);
             let Some(Bounds { a, b, c }) = constants.least() else {
                 continue;
@@ -391,18 +291,12 @@ fn e3_the_closed_form_is_the_iterated_fixed_point() {
 fn e3_refining_b2_lowers_the_bounds_only_if_d2_is_below_one() {
     for row in &TABLE {
         let s = selection(row);
-        let (Some(printed), Some(refined)) = (
-            Constants::new(&s, C2::Sharp, B2::Printed).least(),
-            Constants::new(&s, C2::Sharp, B2::Refined).least(),
-        ) else {
+        let (Some(printed), Some(refined)) =
+            (Constants::new(&s, C2::Sharp, B2::Printed).least(), Constants::new(&s, C2::Sharp, B2::Refined).least())
+        else {
             continue;
         };
-        assert_eq!(
-            refined.a.display() < printed.a.display(),
-            row.d2 < 1.0,
-            "row {}",
-            row.number
-        );
+        assert_eq!(refined.a.display() < printed.a.display(), row.d2 < 1.0, "row {}", row.number);
     }
 }
 
@@ -421,11 +315,7 @@ fn e5_the_shortest_edge_against_the_chord() {
         let half = (1.0 - h * h).sqrt();
         // corners above the chord: their polar angles lie between those of the chord's ends
         let (left, right) = (f64::atan2(-h, -half), f64::atan2(-h, half));
-        let left = if left < right {
-            left + std::f64::consts::TAU
-        } else {
-            left
-        };
+        let left = if left < right { left + std::f64::consts::TAU } else { left };
         let corner = |u: f64| {
             let angle = right + (left - right) * u;
             (angle.cos(), angle.sin())
@@ -444,10 +334,7 @@ fn e5_the_shortest_edge_against_the_chord() {
         }
         triangles += 1;
         let chord2 = 4.0 * half * half;
-        assert!(
-            l2 * (4.0 - 1.0 / (rho * rho)) <= chord2 * (1.0 + 1e-12),
-            "rho {rho} d2 {d2} h {h}"
-        );
+        assert!(l2 * (4.0 - 1.0 / (rho * rho)) <= chord2 * (1.0 + 1e-12), "rho {rho} d2 {d2} h {h}");
         tightest = tightest.min(chord2 / (l2 * (4.0 - 1.0 / (rho * rho))));
     }
     assert!(tightest < 1.2, "{tightest}");
@@ -468,10 +355,7 @@ fn e7_the_separator_is_not_the_shortest_edge() {
         let h = uniform.between(-1.0, 1.0);
         let half = (1.0 - h * h).sqrt();
         // e is y = -h; the apex lies above it on the circle
-        let (right, left) = (
-            f64::atan2(-h, half),
-            std::f64::consts::PI - f64::atan2(-h, half),
-        );
+        let (right, left) = (f64::atan2(-h, half), std::f64::consts::PI - f64::atan2(-h, half));
         let angle = uniform.between(right, left);
         let apex = (angle.cos(), angle.sin());
         assert!(apex.1 >= -h - 1e-12);
@@ -504,10 +388,7 @@ fn e11_a_parent_across_an_angle_that_s_does_not_touch() {
         // strictly inside Diam(s): (a - p).(b - p) < 0
         if (a - px) * (b - px) + py * py < 0.0 {
             inside += 1;
-            assert!(
-                x <= (b - a) * alpha.cos() + 1e-12,
-                "alpha {alpha} a {a} x {x}"
-            );
+            assert!(x <= (b - a) * alpha.cos() + 1e-12, "alpha {alpha} a {a} x {x}");
         }
     }
     assert!(inside > 1000);
@@ -542,10 +423,7 @@ fn e19_right_angles_make_c4_infinite_and_mu_zero_useless() {
 #[test]
 fn e20_i_4_does_not_give_c3_above_one() {
     let s = Selection::of(2.0, 0.71, 0.75, 1.0);
-    assert!(
-        0.71 > 0.5f64.sqrt() && 0.75 > 0.5f64.sqrt(),
-        "I-3 and I-4 hold"
-    );
+    assert!(0.71 > 0.5f64.sqrt() && 0.75 > 0.5f64.sqrt(), "I-3 and I-4 hold");
     assert!(!s.c3_above_one());
     let c3 = Constants::new(&s, C2::Sharp, B2::Refined).c3.display();
     assert_eq!(format!("{c3:.3}"), "0.972");
@@ -569,10 +447,6 @@ fn e22_the_bounds_cover_input_vertices_as_parents() {
 /// Finding 23: the text says that Experiment 2 is slightly higher throughout.
 #[test]
 fn e23_experiment_2_is_lower_than_experiment_1_in_five_rows() {
-    let lower: Vec<u32> = TABLE
-        .iter()
-        .filter(|row| row.random[0] < row.extreme[0])
-        .map(|row| row.number)
-        .collect();
+    let lower: Vec<u32> = TABLE.iter().filter(|row| row.random[0] < row.extreme[0]).map(|row| row.number).collect();
     assert_eq!(lower, [23, 28, 30, 31, 32]);
 }

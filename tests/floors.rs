@@ -10,31 +10,11 @@ use std::path::{Path, PathBuf};
 type Floor = (&'static str, Option<&'static [&'static str]>, &'static str);
 
 const FLOORS: &[Floor] = &[
-    (
-        "model",
-        Some(&[]),
-        "plain data that both the producer and its checker read: nothing may hide in it",
-    ),
-    (
-        "arith",
-        Some(&["model"]),
-        "a kernel answers questions about points and knows no mesh",
-    ),
-    (
-        "trace",
-        Some(&["model"]),
-        "moves numbers; a trace format that computes could not be checked by another program",
-    ),
-    (
-        "domain",
-        Some(&["model", "arith"]),
-        "the conditions of an input are the same for every algorithm",
-    ),
-    (
-        "triangulation",
-        Some(&["model", "arith"]),
-        "does not know why a point is inserted and writes no events",
-    ),
+    ("model", Some(&[]), "plain data that both the producer and its checker read: nothing may hide in it"),
+    ("arith", Some(&["model"]), "a kernel answers questions about points and knows no mesh"),
+    ("trace", Some(&["model"]), "moves numbers; a trace format that computes could not be checked by another program"),
+    ("domain", Some(&["model", "arith"]), "the conditions of an input are the same for every algorithm"),
+    ("triangulation", Some(&["model", "arith"]), "does not know why a point is inserted and writes no events"),
     (
         "io",
         Some(&["model", "domain"]),
@@ -60,11 +40,7 @@ const FLOORS: &[Floor] = &[
         Some(&["model"]),
         "decides the validity of what it makes by itself: a bug of the library must not shape its own test data",
     ),
-    (
-        "doctor",
-        Some(&["model", "arith", "domain", "triangulation"]),
-        "an examination refines nothing",
-    ),
+    ("doctor", Some(&["model", "arith", "domain", "triangulation"]), "an examination refines nothing"),
     (
         "reproduce",
         Some(&["model", "arith", "trace", "refine", "check"]),
@@ -72,25 +48,11 @@ const FLOORS: &[Floor] = &[
     ),
     (
         "attack",
-        Some(&[
-            "model",
-            "arith",
-            "trace",
-            "domain",
-            "triangulation",
-            "io",
-            "refine",
-            "check",
-            "generators",
-        ]),
+        Some(&["model", "arith", "trace", "domain", "triangulation", "io", "refine", "check", "generators"]),
         "tests the library below the command line",
     ),
     ("cli", None, "the wiring"),
-    (
-        "main",
-        Some(&["cli"]),
-        "the program is the library's command line",
-    ),
+    ("main", Some(&["cli"]), "the program is the library's command line"),
     ("lib", None, "names the floors"),
 ];
 
@@ -117,17 +79,13 @@ const WORDS: &[Words] = &[
     },
     Words {
         words: &[
-            "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sin_cos", "sinh", "cosh",
-            "tanh", "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "powi",
-            "cbrt", "hypot",
+            "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sin_cos", "sinh", "cosh", "tanh", "exp", "exp2",
+            "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "powi", "cbrt", "hypot",
         ],
         calls: true,
         except_folders: TALK,
         except_files: &[
-            (
-                "domain/angles.rs",
-                "degrees in a note; which angles are small is decided by the kernel",
-            ),
+            ("domain/angles.rs", "degrees in a note; which angles are small is decided by the kernel"),
             ("audit/figures.rs", "degrees in a report"),
         ],
         reason: "libm rounds differently on different machines; sqrt and the four operations do not",
@@ -211,10 +169,7 @@ fn every_folder_has_a_floor_and_a_place_in_the_picture() {
     folders.sort();
     folders.dedup();
     for folder in &folders {
-        assert!(
-            FLOORS.iter().any(|(name, ..)| name == folder),
-            "src/{folder} is on no floor"
-        );
+        assert!(FLOORS.iter().any(|(name, ..)| name == folder), "src/{folder} is on no floor");
         assert!(
             folder == "main" || folder == "lib" || page.contains(&format!("| `{folder}` |")),
             "docs/architecture.md does not tell of {folder}"
@@ -233,47 +188,25 @@ fn every_folder_has_a_floor_and_a_place_in_the_picture() {
 fn the_scanner_sees_what_breaks_a_rule() {
     let bad = [
         ("check/a.rs", "use crate::arith::Kernel;"),
-        (
-            "check/a.rs",
-            "use crate::{\n    model::Point2,\n    refine::{Run, RunError},\n};",
-        ),
+        ("check/a.rs", "use crate::{\n    model::Point2,\n    refine::{Run, RunError},\n};"),
         ("check/a.rs", "use super::super::domain::Scale;"),
         ("check/mod.rs", "use super::triangulation::cdt2;"),
-        (
-            "check/strict/a.rs",
-            "fn f() { super::super::super::io::read() }",
-        ),
+        ("check/strict/a.rs", "fn f() { super::super::super::io::read() }"),
         ("check/a.rs", "fn f() { crate::triangulation::cdt2::g() }"),
         ("check/a.rs", "fn f() { orthoball::arith::g() }"),
-        (
-            "check/a.rs",
-            "#[cfg(test)]\nmod tests {\n    use crate::arith::Kernel;\n}",
-        ),
+        ("check/a.rs", "#[cfg(test)]\nmod tests {\n    use crate::arith::Kernel;\n}"),
         ("io/a.rs", "pub use crate::refine as r;"),
         ("model/point.rs", "use crate::arith;"),
         ("audit/mod.rs", "use crate::domain::normalise;"),
     ];
     for (path, text) in bad {
-        assert_eq!(
-            foreign_imports(&source(path, text)).len(),
-            1,
-            "{path}: {text}"
-        );
+        assert_eq!(foreign_imports(&source(path, text)).len(), 1, "{path}: {text}");
     }
     let good = [
-        (
-            "check/a.rs",
-            "use crate::model::Point2; use super::value::Value; use crate::check::rational;",
-        ),
+        ("check/a.rs", "use crate::model::Point2; use super::value::Value; use crate::check::rational;"),
         ("check/strict/a.rs", "use super::super::value::Value;"),
-        (
-            "check/a.rs",
-            "// use crate::arith::Kernel;\nfn f() -> &'static str { \"crate::arith\" }",
-        ),
-        (
-            "refine/gcdr/a.rs",
-            "use crate::arith::{Kernel, scale}; use crate::refine::Run;",
-        ),
+        ("check/a.rs", "// use crate::arith::Kernel;\nfn f() -> &'static str { \"crate::arith\" }"),
+        ("refine/gcdr/a.rs", "use crate::arith::{Kernel, scale}; use crate::refine::Run;"),
     ];
     for (path, text) in good {
         assert_eq!(foreign_imports(&source(path, text)), Vec::<String>::new());
@@ -289,17 +222,10 @@ fn the_scanner_sees_what_breaks_a_rule() {
         ("io/a.rs", "let t = std::fs::read(path);"),
         ("cli/a.rs", "todo!()"),
         // A test module hides what is in it, not what comes after it.
-        (
-            "arith/a.rs",
-            "#[cfg(test)]\nmod tests {\n    fn f() {}\n}\nfn g() { x.cos(); }",
-        ),
+        ("arith/a.rs", "#[cfg(test)]\nmod tests {\n    fn f() {}\n}\nfn g() { x.cos(); }"),
     ];
     for (path, text) in words {
-        assert_eq!(
-            forbidden_words(&source(path, text)).len(),
-            1,
-            "{path}: {text}"
-        );
+        assert_eq!(forbidden_words(&source(path, text)).len(), 1, "{path}: {text}");
     }
     let fine = [
         ("cli/a.rs", "use std::collections::HashMap;"),
@@ -307,18 +233,11 @@ fn the_scanner_sees_what_breaks_a_rule() {
             "arith/a.rs",
             "//! The sin of a HashMap.\nlet c = '\"'; let sine = x.sqrt(); /* unsafe */ let s = r#\"mul_add\"#;",
         ),
-        (
-            "arith/a.rs",
-            "#[cfg(test)]\nmod tests {\n    fn f() { x.cos(); }\n}",
-        ),
+        ("arith/a.rs", "#[cfg(test)]\nmod tests {\n    fn f() { x.cos(); }\n}"),
         ("domain/angles.rs", "let a = y.atan2(x);"),
     ];
     for (path, text) in fine {
-        assert_eq!(
-            forbidden_words(&source(path, text)),
-            Vec::<String>::new(),
-            "{text}"
-        );
+        assert_eq!(forbidden_words(&source(path, text)), Vec::<String>::new(), "{text}");
     }
 }
 
@@ -331,11 +250,7 @@ struct Source {
 }
 
 fn source(path: &str, text: &str) -> Source {
-    Source {
-        path: path.into(),
-        code: code_of(text),
-        test: false,
-    }
+    Source { path: path.into(), code: code_of(text), test: false }
 }
 
 impl Source {
@@ -372,9 +287,7 @@ fn sources() -> Vec<Source> {
     for (path, text) in &texts {
         let lines: Vec<&str> = text.lines().map(str::trim).collect();
         for pair in lines.windows(2) {
-            let name = pair[1]
-                .strip_prefix("mod ")
-                .and_then(|n| n.strip_suffix(';'));
+            let name = pair[1].strip_prefix("mod ").and_then(|n| n.strip_suffix(';'));
             if let (true, Some(name)) = (is_test_attribute(pair[0]), name) {
                 tests.push(path.with_file_name(name));
             }
@@ -384,21 +297,12 @@ fn sources() -> Vec<Source> {
         .iter()
         .map(|(path, text)| Source {
             // Files are under the root that was walked.
-            path: path
-                .strip_prefix(&root)
-                .unwrap()
-                .to_str()
-                .unwrap()
-                .replace('\\', "/"),
+            path: path.strip_prefix(&root).unwrap().to_str().unwrap().replace('\\', "/"),
             code: code_of(text),
             test: tests.iter().any(|t| path.with_extension("").starts_with(t)),
         })
         .collect();
-    assert!(
-        all.len() > 100,
-        "the sources have moved: {}",
-        root.display()
-    );
+    assert!(all.len() > 100, "the sources have moved: {}", root.display());
     assert!(all.iter().any(|s| s.test));
     all
 }
@@ -428,10 +332,7 @@ fn code_of(text: &str) -> String {
         let blank_from = i;
         i = end.unwrap_or(i + 1);
         if end.is_some() {
-            out[blank_from..i]
-                .iter_mut()
-                .filter(|b| **b != b'\n')
-                .for_each(|b| *b = b' ');
+            out[blank_from..i].iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
         }
     }
     // Literals are blanked whole, so what is left is text as it was.
@@ -545,14 +446,7 @@ fn foreign_imports(source: &Source) -> Vec<String> {
         .filter(|(_, name)| *name != folder && !allowed.contains(name))
         // What an inline module of a folder's root names through `super` is the folder's own.
         .filter(|(_, name)| FLOORS.iter().any(|(f, ..)| f == name));
-    foreign
-        .map(|(line, name)| {
-            format!(
-                "src/{}:{line}: {folder} imports {name}; {reason}",
-                source.path
-            )
-        })
-        .collect()
+    foreign.map(|(line, name)| format!("src/{}:{line}: {folder} imports {name}; {reason}", source.path)).collect()
 }
 
 /// The first name of a path, or of each path in a group `{a::.., b}`, from token `i` on.
@@ -593,25 +487,18 @@ fn forbidden_words(source: &Source) -> Vec<String> {
     let mut found = Vec::new();
     for rule in WORDS {
         let folder = source.folder();
-        let excepted = rule.except_folders.contains(&folder.as_str())
-            || rule.except_files.iter().any(|(f, _)| *f == source.path);
+        let excepted =
+            rule.except_folders.contains(&folder.as_str()) || rule.except_files.iter().any(|(f, _)| *f == source.path);
         if excepted {
             continue;
         }
         for (i, (line, word)) in tokens.iter().enumerate() {
             let two = tokens.get(i + 1).map(|next| format!("{word} {}", next.1));
             // Variables may have any name: a function of libm is called, or named by its path.
-            let called = matches!(tokens.get(i + 1), Some((_, "(")))
-                || matches!(tokens[i.max(1) - 1].1, "." | "::");
-            let hit = rule
-                .words
-                .iter()
-                .find(|w| *w == word || Some(w.to_string()) == two);
+            let called = matches!(tokens.get(i + 1), Some((_, "("))) || matches!(tokens[i.max(1) - 1].1, "." | "::");
+            let hit = rule.words.iter().find(|w| *w == word || Some(w.to_string()) == two);
             if let (Some(hit), true) = (hit, called || !rule.calls) {
-                found.push(format!(
-                    "src/{}:{line}: {hit}; {}",
-                    source.path, rule.reason
-                ));
+                found.push(format!("src/{}:{line}: {hit}; {}", source.path, rule.reason));
             }
         }
     }
@@ -624,10 +511,8 @@ fn without_tests(code: &str) -> String {
     let mut inside = false;
     let lines: Vec<&str> = code.lines().collect();
     for (i, line) in lines.iter().enumerate() {
-        let begins = is_test_attribute(line)
-            && lines
-                .get(i + 1)
-                .is_some_and(|l| l.contains("mod ") && l.ends_with('{'));
+        let begins =
+            is_test_attribute(line) && lines.get(i + 1).is_some_and(|l| l.contains("mod ") && l.ends_with('{'));
         inside |= begins;
         if !inside {
             out.push_str(line);

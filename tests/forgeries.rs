@@ -7,8 +7,8 @@ use orthoball::check::{Options, Verdict, verify};
 use orthoball::domain::prepare;
 use orthoball::generators::{PslgFamily, SplitMix64, pslg};
 use orthoball::model::{
-    Choice, DeletionPolicy, DiskChoice, Fill, GcdrParameters, Lines, Point2, Pslg, QueueOrder,
-    Segment, SmallAngles, Triangle, VertexId,
+    Choice, DeletionPolicy, DiskChoice, Fill, GcdrParameters, Lines, Point2, Pslg, QueueOrder, Segment, SmallAngles,
+    Triangle, VertexId,
 };
 use orthoball::refine::{self, gcdr};
 use orthoball::trace::{Event, Record, Recorder, SkipReason, Why};
@@ -37,24 +37,15 @@ fn parameters() -> GcdrParameters {
 
 fn run(pslg: &Pslg, params: &GcdrParameters) -> Vec<Record> {
     let mut recorder = Recorder::default();
-    gcdr::run::<FastKernel>(pslg, params, &mut refine::Options::default(), &mut recorder)
-        .expect("a run");
+    gcdr::run::<FastKernel>(pslg, params, &mut refine::Options::default(), &mut recorder).expect("a run");
     recorder.0
 }
 
 fn square(points: &[Point2]) -> Pslg {
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    let segment = |k: u32| Segment {
-        ends: [VertexId(k), VertexId((k + 1) % 4)],
-        marker: 1,
-        toggles: true,
-    };
+    let segment = |k: u32| Segment { ends: [VertexId(k), VertexId((k + 1) % 4)], marker: 1, toggles: true };
     Pslg {
-        points: corners
-            .iter()
-            .map(|&[x, y]| Point2::new(x, y))
-            .chain(points.iter().copied())
-            .collect(),
+        points: corners.iter().map(|&[x, y]| Point2::new(x, y)).chain(points.iter().copied()).collect(),
         segments: (0..4).map(segment).collect(),
         ..Pslg::default()
     }
@@ -62,13 +53,7 @@ fn square(points: &[Point2]) -> Pslg {
 
 /// Plain or strict, digests not compared.
 fn judge(records: &[Record], strict: bool) -> Verdict {
-    verify(
-        records,
-        Options {
-            strict,
-            digests: false,
-        },
-    )
+    verify(records, Options { strict, digests: false })
 }
 
 fn accepted(verdict: &Verdict) -> bool {
@@ -79,11 +64,7 @@ fn accepted(verdict: &Verdict) -> bool {
 fn graphs() -> impl Iterator<Item = Pslg> {
     let families = PslgFamily::all();
     (0..200).filter_map(move |k| {
-        let graph = pslg(
-            families[k % families.len()],
-            4 + k / families.len() % 9,
-            &mut SplitMix64(k as u64),
-        );
+        let graph = pslg(families[k % families.len()], 4 + k / families.len() % 9, &mut SplitMix64(k as u64));
         let prepared = prepare::<FastKernel>(&graph, &Lines::default());
         (!prepared.has_errors()).then_some(prepared.pslg)
     })
@@ -112,10 +93,7 @@ fn a_deleted_vertex_names_no_triangle() {
                 ..parameters()
             };
             let mut recorder = Recorder::default();
-            let mut options = refine::Options {
-                max_steps: 120,
-                ..refine::Options::default()
-            };
+            let mut options = refine::Options { max_steps: 120, ..refine::Options::default() };
             if gcdr::run::<FastKernel>(&graph, &params, &mut options, &mut recorder).is_err() {
                 continue;
             }
@@ -128,13 +106,7 @@ fn a_deleted_vertex_names_no_triangle() {
                         waiting.push(*id);
                         continue;
                     }
-                    Record::Event(
-                        Event::Skip { t, .. }
-                        | Event::Insert {
-                            why: Why::Split { t, .. },
-                            ..
-                        },
-                    ) => *t,
+                    Record::Event(Event::Skip { t, .. } | Event::Insert { why: Why::Split { t, .. }, .. }) => *t,
                     _ => continue,
                 };
                 // only the smallest id is looked up; any corner may have been replaced
@@ -143,13 +115,8 @@ fn a_deleted_vertex_names_no_triangle() {
                         let mut other = t;
                         other[k] = w;
                         let mut changed = records[..=i].to_vec();
-                        let Record::Event(
-                            Event::Skip { t, .. }
-                            | Event::Insert {
-                                why: Why::Split { t, .. },
-                                ..
-                            },
-                        ) = &mut changed[i]
+                        let Record::Event(Event::Skip { t, .. } | Event::Insert { why: Why::Split { t, .. }, .. }) =
+                            &mut changed[i]
                         else {
                             continue;
                         };
@@ -202,24 +169,16 @@ fn a_split_off_its_segment_is_rejected() {
         .iter()
         .enumerate()
         .find_map(|(i, r)| match r {
-            Record::Event(Event::Insert {
-                p,
-                why: Why::Split { .. },
-                ..
-            }) => Some((i, *p)),
+            Record::Event(Event::Insert { p, why: Why::Split { .. }, .. }) => Some((i, *p)),
             _ => None,
         })
         .expect("a split");
     for off in [1e-15, 1e-9, 1e-3] {
         let mut forged = records[..=at].to_vec();
-        let Record::Event(Event::Insert { p, .. }) = &mut forged[at] else {
-            unreachable!("found above")
-        };
+        let Record::Event(Event::Insert { p, .. }) = &mut forged[at] else { unreachable!("found above") };
         // the bottom edge is on y = 0: any y is off it
         *p = Point2::new(first.x, first.y + off);
-        let Verdict::Rejected(r) = judge(&forged, false) else {
-            panic!("a prefix was accepted")
-        };
+        let Verdict::Rejected(r) = judge(&forged, false) else { panic!("a prefix was accepted") };
         assert_eq!(r.rule, orthoball::check::Rule::S2, "{off}: {r}");
     }
 }
@@ -228,29 +187,18 @@ fn a_split_off_its_segment_is_rejected() {
 #[test]
 fn a_split_limit_is_unchecked_in_plain_verification() {
     let graph = square(&[Point2::new(0.5, 0.02)]);
-    let params = GcdrParameters {
-        max_splits: Some(0),
-        ..parameters()
-    };
+    let params = GcdrParameters { max_splits: Some(0), ..parameters() };
     let records = run(&graph, &params);
     let mut skips = 0;
     for r in &records {
-        if let Record::Event(Event::Skip {
-            reason: SkipReason::SplitLimit { .. },
-            ..
-        }) = r
-        {
+        if let Record::Event(Event::Skip { reason: SkipReason::SplitLimit { .. }, .. }) = r {
             skips += 1;
         }
     }
     assert!(skips > 0);
-    let Verdict::Accepted { unchecked, .. } = judge(&records, false) else {
-        panic!("a true trace was rejected")
-    };
+    let Verdict::Accepted { unchecked, .. } = judge(&records, false) else { panic!("a true trace was rejected") };
     assert!(!unchecked.is_empty());
-    let Verdict::Accepted { unchecked, .. } = judge(&records, true) else {
-        panic!("a true trace was rejected")
-    };
+    let Verdict::Accepted { unchecked, .. } = judge(&records, true) else { panic!("a true trace was rejected") };
     assert!(unchecked.is_empty());
 }
 
@@ -286,10 +234,7 @@ fn a_users_point_outside_its_region_is_refused() {
     let prepared = prepare::<FastKernel>(&graph, &Lines::default()).pslg;
     let run_with = |disk, interval| {
         let mut chooser = Moved(disk, interval);
-        let mut options = refine::Options {
-            chooser: Some(&mut chooser),
-            ..refine::Options::default()
-        };
+        let mut options = refine::Options { chooser: Some(&mut chooser), ..refine::Options::default() };
         let mut recorder = Recorder::default();
         gcdr::run::<FastKernel>(&prepared, &params, &mut options, &mut recorder).map(|_| recorder.0)
     };
@@ -302,17 +247,11 @@ fn a_users_point_outside_its_region_is_refused() {
     let wrong = [f64::NAN, f64::INFINITY, 1e300, 3.0, 1e-9];
     for x in wrong {
         let both = run_with(zero, [x, x]);
-        assert!(
-            matches!(both, Err(refine::RunError::RegionViolation { .. })),
-            "{x} beside a segment"
-        );
+        assert!(matches!(both, Err(refine::RunError::RegionViolation { .. })), "{x} beside a segment");
     }
     for x in &wrong[..4] {
         let moved = run_with([*x, 0.0], zero);
-        assert!(
-            matches!(moved, Err(refine::RunError::RegionViolation { .. })),
-            "{x} off a center"
-        );
+        assert!(matches!(moved, Err(refine::RunError::RegionViolation { .. })), "{x} off a center");
     }
 }
 
@@ -320,42 +259,17 @@ fn a_users_point_outside_its_region_is_refused() {
 #[test]
 fn a_bound_that_is_no_positive_number_is_refused() {
     for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300] {
-        let params = GcdrParameters {
-            max_area: Some(wrong),
-            ..parameters()
-        };
+        let params = GcdrParameters { max_area: Some(wrong), ..parameters() };
         let mut recorder = Recorder::default();
-        let answer = gcdr::run::<FastKernel>(
-            &square(&[]),
-            &params,
-            &mut refine::Options::default(),
-            &mut recorder,
-        );
-        assert!(
-            matches!(answer, Err(refine::RunError::Parameter { .. })),
-            "area {wrong}"
-        );
+        let answer = gcdr::run::<FastKernel>(&square(&[]), &params, &mut refine::Options::default(), &mut recorder);
+        assert!(matches!(answer, Err(refine::RunError::Parameter { .. })), "area {wrong}");
         assert!(recorder.0.is_empty(), "area {wrong}");
     }
     for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let params = GcdrParameters {
-            size_function: true,
-            ..parameters()
-        };
+        let params = GcdrParameters { size_function: true, ..parameters() };
         let mut size = |_| wrong;
-        let mut options = refine::Options {
-            size: Some(&mut size),
-            ..refine::Options::default()
-        };
-        let answer = gcdr::run::<FastKernel>(
-            &square(&[]),
-            &params,
-            &mut options,
-            &mut Recorder::default(),
-        );
-        assert!(
-            matches!(answer, Err(refine::RunError::Size { .. })),
-            "size {wrong}"
-        );
+        let mut options = refine::Options { size: Some(&mut size), ..refine::Options::default() };
+        let answer = gcdr::run::<FastKernel>(&square(&[]), &params, &mut options, &mut Recorder::default());
+        assert!(matches!(answer, Err(refine::RunError::Size { .. })), "size {wrong}");
     }
 }

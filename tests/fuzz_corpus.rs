@@ -12,19 +12,13 @@ const LEAST: usize = 20;
 
 /// Runs every file of a corpus, in order of names.
 fn replay(target: &str, mut run: impl FnMut(&[u8])) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("fuzz/corpus")
-        .join(target);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target);
     let mut files: Vec<_> = std::fs::read_dir(&folder)
         .unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
         .map(|entry| entry.expect("a readable folder").path())
         .collect();
     files.sort();
-    assert!(
-        files.len() >= LEAST,
-        "{target} has {} files only",
-        files.len()
-    );
+    assert!(files.len() >= LEAST, "{target} has {} files only", files.len());
     for file in &files {
         let bytes = std::fs::read(file).expect("a readable file");
         // Shown if it panics.
@@ -41,9 +35,7 @@ fn decoded<'a, C: Arbitrary<'a>>(bytes: &'a [u8]) -> Option<C> {
 #[test]
 fn kernels() {
     replay("kernels", |bytes| {
-        decoded::<KernelCase>(bytes)
-            .iter()
-            .for_each(KernelCase::run);
+        decoded::<KernelCase>(bytes).iter().for_each(KernelCase::run);
     });
 }
 
@@ -64,9 +56,7 @@ fn gcdr() {
 #[test]
 fn mutated_traces() {
     replay("mutated_traces", |bytes| {
-        decoded::<MutatedTraceCase>(bytes)
-            .iter()
-            .for_each(MutatedTraceCase::run);
+        decoded::<MutatedTraceCase>(bytes).iter().for_each(MutatedTraceCase::run);
     });
 }
 

@@ -6,22 +6,14 @@ use orthoball::arith::{ExactKernel, FastKernel, Kernel, PlainKernel};
 use orthoball::domain::prepare;
 use orthoball::generators::{PslgFamily, SplitMix64, pslg};
 use orthoball::model::{
-    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Lines, Pslg, QueueOrder, SmallAngles,
-    VertexOfTriangle,
+    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Lines, Pslg, QueueOrder, SmallAngles, VertexOfTriangle,
 };
 use orthoball::refine::{Options, gcdr};
 use orthoball::trace::{Record, Recorder};
 
-fn records<K: Kernel>(
-    pslg: &Pslg,
-    params: &GcdrParameters,
-    max_steps: u64,
-) -> Result<Vec<Record>, String> {
+fn records<K: Kernel>(pslg: &Pslg, params: &GcdrParameters, max_steps: u64) -> Result<Vec<Record>, String> {
     let mut recorder = Recorder::default();
-    let mut options = Options {
-        max_steps,
-        ..Options::default()
-    };
+    let mut options = Options { max_steps, ..Options::default() };
     match gcdr::run::<K>(pslg, params, &mut options, &mut recorder) {
         Ok(_) => Ok(recorder.0),
         Err(error) => Err(error.to_string()),
@@ -40,10 +32,7 @@ fn parameters(k: usize) -> GcdrParameters {
     ][k % 5];
     let choice = [Choice::Center, Choice::Extreme, Choice::Random][k % 3];
     let shrink = [1.0, 0.9, 0.8][k / 2 % 3];
-    let offcenter = matches!(
-        choice_a,
-        DiskChoice::Offcenter | DiskChoice::ClampedOffcenter
-    );
+    let offcenter = matches!(choice_a, DiskChoice::Offcenter | DiskChoice::ClampedOffcenter);
     GcdrParameters {
         rho2,
         d1: shrink,
@@ -53,29 +42,11 @@ fn parameters(k: usize) -> GcdrParameters {
         choice_b: choice,
         choice_c: choice,
         kappa: offcenter.then(|| kappa(rho2)),
-        extreme: Some(
-            [
-                VertexOfTriangle::First,
-                VertexOfTriangle::Newest,
-                VertexOfTriangle::Seeded,
-            ][k / 5 % 3],
-        ),
+        extreme: Some([VertexOfTriangle::First, VertexOfTriangle::Newest, VertexOfTriangle::Seeded][k / 5 % 3]),
         seed: Some(k as u64),
-        order: [
-            QueueOrder::ShortestEdge,
-            QueueOrder::WorstFirst,
-            QueueOrder::Fifo,
-        ][k / 7 % 3],
-        deletion: [
-            DeletionPolicy::Segment,
-            DeletionPolicy::Point,
-            DeletionPolicy::Disk,
-        ][k / 11 % 3],
-        small_angles: if k % 4 == 3 {
-            SmallAngles::Off
-        } else {
-            SmallAngles::Shells
-        },
+        order: [QueueOrder::ShortestEdge, QueueOrder::WorstFirst, QueueOrder::Fifo][k / 7 % 3],
+        deletion: [DeletionPolicy::Segment, DeletionPolicy::Point, DeletionPolicy::Disk][k / 11 % 3],
+        small_angles: if k % 4 == 3 { SmallAngles::Off } else { SmallAngles::Shells },
         max_area: None,
         size_function: false,
         max_splits: None,
@@ -84,10 +55,7 @@ fn parameters(k: usize) -> GcdrParameters {
 
 /// How many cases; the long runs set the variable.
 fn cases() -> usize {
-    std::env::var("ORTHOBALL_CASES")
-        .ok()
-        .and_then(|n| n.parse().ok())
-        .unwrap_or(600)
+    std::env::var("ORTHOBALL_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(600)
 }
 
 #[test]
@@ -119,10 +87,7 @@ fn fast_and_exact_agree_and_plain_does_not() {
                 );
                 assert_eq!(fast.len(), exact.len(), "case {k} {family:?}");
                 compared += 1;
-                events += fast
-                    .iter()
-                    .filter(|r| matches!(r, Record::Event(_)))
-                    .count();
+                events += fast.iter().filter(|r| matches!(r, Record::Event(_))).count();
             }
             (a, b) => assert_eq!(a, b, "case {k} {family:?}"),
         }
@@ -130,8 +95,5 @@ fn fast_and_exact_agree_and_plain_does_not() {
     }
     println!("{compared} cases compared, {events} events, plain differs in {plain_differs}");
     assert!(compared * 2 > cases(), "only {compared} cases were meshed");
-    assert!(
-        plain_differs * 4 > compared,
-        "the control differed in {plain_differs} of {compared} cases only"
-    );
+    assert!(plain_differs * 4 > compared, "the control differed in {plain_differs} of {compared} cases only");
 }

@@ -16,21 +16,12 @@ fn parameters() -> GcdrParameters {
 fn trace(poly: &str, parameters: &GcdrParameters) -> Vec<Record> {
     let input = parse_poly(poly.as_bytes(), None).expect("a good file");
     let mut recorder = Recorder::default();
-    gcdr::run::<FastKernel>(
-        &input.pslg,
-        parameters,
-        &mut refine::Options::default(),
-        &mut recorder,
-    )
-    .expect("a run");
+    gcdr::run::<FastKernel>(&input.pslg, parameters, &mut refine::Options::default(), &mut recorder).expect("a run");
     recorder.0
 }
 
 fn rule(records: &[Record]) -> Option<Rule> {
-    let strict = Options {
-        strict: true,
-        digests: false,
-    };
+    let strict = Options { strict: true, digests: false };
     match verify(records, strict) {
         Verdict::Accepted { .. } => None,
         Verdict::Rejected(rejection) => Some(rejection.rule),
@@ -55,10 +46,7 @@ fn header_start_and_end_come_once() {
     let poly = "3 2\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n";
     let records = trace(poly, &parameters());
     for at in 0..records.len() {
-        let opens = matches!(
-            records[at],
-            Record::Header(_) | Record::Start { .. } | Record::End(_)
-        );
+        let opens = matches!(records[at], Record::Header(_) | Record::Start { .. } | Record::End(_));
         if opens {
             let mut doubled = records.clone();
             doubled.insert(at, records[at].clone());
@@ -74,10 +62,7 @@ fn a_triangulation_keeps_holes_and_concavities() {
         7 0\n1 1 2\n2 2 3\n3 4 1\n4 5 6\n5 6 7\n6 7 8\n7 8 5\n1\n1 4 4\n1\n1 5 5 1 1\n";
     let input = parse_poly(poly.as_bytes(), None).expect("a good file");
     for fill in [Fill::Seeds, Fill::Parity, Fill::Convex] {
-        let whole = Pslg {
-            fill,
-            ..input.pslg.clone()
-        };
+        let whole = Pslg { fill, ..input.pslg.clone() };
         let mut recorder = Recorder::default();
         let run = refine::triangulate::<FastKernel>(&whole, &mut recorder).expect("a run");
         assert_eq!(run.mesh.triangles.len(), 10);

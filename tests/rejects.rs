@@ -7,28 +7,18 @@ use orthoball::check::{Checker, Options, Verdict, verify};
 use orthoball::domain::prepare;
 use orthoball::generators::{Draw, PslgFamily, SplitMix64, pslg};
 use orthoball::model::{
-    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Level, Lines, Pslg, QueueOrder, SegmentId,
-    SmallAngles, VertexId,
+    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Level, Lines, Pslg, QueueOrder, SegmentId, SmallAngles,
+    VertexId,
 };
 use orthoball::refine::{self, gcdr};
-use orthoball::trace::{
-    Cause, Event, Outcome, Record, Recorder, Shell, SkipReason, SplitKind, Why,
-};
+use orthoball::trace::{Cause, Event, Outcome, Record, Recorder, Shell, SkipReason, SplitKind, Why};
 
-const STRICT: Options = Options {
-    strict: true,
-    digests: false,
-};
+const STRICT: Options = Options { strict: true, digests: false };
 
 fn records(pslg: &Pslg, params: &GcdrParameters, max_steps: u64) -> Option<Vec<Record>> {
     let mut recorder = Recorder::default();
-    let mut options = refine::Options {
-        max_steps,
-        ..refine::Options::default()
-    };
-    gcdr::run::<FastKernel>(pslg, params, &mut options, &mut recorder)
-        .ok()
-        .map(|_| recorder.0)
+    let mut options = refine::Options { max_steps, ..refine::Options::default() };
+    gcdr::run::<FastKernel>(pslg, params, &mut options, &mut recorder).ok().map(|_| recorder.0)
 }
 
 fn parameters(k: usize) -> GcdrParameters {
@@ -39,21 +29,13 @@ fn parameters(k: usize) -> GcdrParameters {
         d1: 1.0,
         d2: 1.0,
         mu: 1.0,
-        choice_a: if offcenter {
-            DiskChoice::Offcenter
-        } else {
-            DiskChoice::Center
-        },
+        choice_a: if offcenter { DiskChoice::Offcenter } else { DiskChoice::Center },
         choice_b: Choice::Center,
         choice_c: Choice::Center,
         kappa: offcenter.then(|| kappa(rho2)),
         extreme: None,
         seed: None,
-        order: [
-            QueueOrder::ShortestEdge,
-            QueueOrder::WorstFirst,
-            QueueOrder::Fifo,
-        ][k / 2 % 3],
+        order: [QueueOrder::ShortestEdge, QueueOrder::WorstFirst, QueueOrder::Fifo][k / 2 % 3],
         deletion: DeletionPolicy::Segment,
         small_angles: SmallAngles::Shells,
         max_area: (k % 4 == 1).then_some(0.02),
@@ -67,11 +49,7 @@ fn samples() -> Vec<Vec<Record>> {
     let families = PslgFamily::all();
     let mut samples = Vec::new();
     for k in 0..72 {
-        let graph = pslg(
-            families[k % families.len()],
-            4 + k % 7,
-            &mut SplitMix64(k as u64 + 1000),
-        );
+        let graph = pslg(families[k % families.len()], 4 + k % 7, &mut SplitMix64(k as u64 + 1000));
         let prepared = prepare::<FastKernel>(&graph, &Lines::default());
         if prepared.has_errors() {
             continue;
@@ -166,11 +144,7 @@ fn changes(event: &Event, vertices: u32) -> Vec<(&'static str, Event)> {
             });
             for cause in causes {
                 add("insert cause", &|e| {
-                    if let Event::Insert {
-                        why: Why::Free { cause: c } | Why::Split { cause: c, .. },
-                        ..
-                    } = e
-                    {
+                    if let Event::Insert { why: Why::Free { cause: c } | Why::Split { cause: c, .. }, .. } = e {
                         *c = cause
                     }
                 });
@@ -217,19 +191,13 @@ fn changes(event: &Event, vertices: u32) -> Vec<(&'static str, Event)> {
                 split("split kind", &|w| {
                     if let Why::Split { kind, .. } = w {
                         *kind = match *kind {
-                            SplitKind::B => SplitKind::C {
-                                parent: VertexId(0),
-                            },
+                            SplitKind::B => SplitKind::C { parent: VertexId(0) },
                             SplitKind::C { .. } => SplitKind::B,
                         }
                     }
                 });
                 split("split parent", &|w| {
-                    if let Why::Split {
-                        kind: SplitKind::C { parent },
-                        ..
-                    } = w
-                    {
+                    if let Why::Split { kind: SplitKind::C { parent }, .. } = w {
                         *parent = other(*parent)
                     }
                 });
@@ -242,18 +210,12 @@ fn changes(event: &Event, vertices: u32) -> Vec<(&'static str, Event)> {
                     }
                 });
                 split("shell k", &|w| {
-                    if let Why::Split {
-                        shell: Some(shell), ..
-                    } = w
-                    {
+                    if let Why::Split { shell: Some(shell), .. } = w {
                         shell.k += 1
                     }
                 });
                 split("shell apex", &|w| {
-                    if let Why::Split {
-                        shell: Some(shell), ..
-                    } = w
-                    {
+                    if let Why::Split { shell: Some(shell), .. } = w {
                         shell.apex = other(shell.apex)
                     }
                 });
@@ -314,12 +276,8 @@ fn changes(event: &Event, vertices: u32) -> Vec<(&'static str, Event)> {
                 SkipReason::Resolution,
                 SkipReason::InputAngle { apex: VertexId(0) },
                 SkipReason::InputAngle { apex: VertexId(1) },
-                SkipReason::SplitLimit {
-                    segment: SegmentId(0),
-                },
-                SkipReason::SplitLimit {
-                    segment: SegmentId(1),
-                },
+                SkipReason::SplitLimit { segment: SegmentId(0) },
+                SkipReason::SplitLimit { segment: SegmentId(1) },
             ];
             for r in reasons {
                 add("skip reason", &|e| {
@@ -337,10 +295,7 @@ fn changes(event: &Event, vertices: u32) -> Vec<(&'static str, Event)> {
 fn every_changed_field_is_refused() {
     let mut seen = std::collections::BTreeMap::<&str, u32>::new();
     for trace in samples() {
-        let vertices = trace
-            .iter()
-            .filter(|r| matches!(r, Record::Vertex { .. }))
-            .count() as u32;
+        let vertices = trace.iter().filter(|r| matches!(r, Record::Vertex { .. })).count() as u32;
         let mut checker = Checker::new(STRICT);
         for (i, record) in trace.iter().enumerate() {
             if let Record::Event(event) = record {
@@ -370,10 +325,7 @@ fn every_changed_field_is_refused() {
         "skip reason",
         "skip cause",
     ] {
-        assert!(
-            seen.get(name).is_some_and(|&n| n > 0),
-            "no sample has {name}"
-        );
+        assert!(seen.get(name).is_some_and(|&n| n > 0), "no sample has {name}");
     }
 }
 
@@ -381,9 +333,7 @@ fn every_changed_field_is_refused() {
 fn every_changed_end_is_refused() {
     for trace in samples() {
         let last = trace.len() - 1;
-        let Record::End(end) = &trace[last] else {
-            panic!("a trace without end")
-        };
+        let Record::End(end) = &trace[last] else { panic!("a trace without end") };
         let mut variants = Vec::new();
         for k in 0..7 {
             let mut e = end.clone();
@@ -404,12 +354,7 @@ fn every_changed_end_is_refused() {
             e.outcome = outcome;
             variants.push(e);
         }
-        for level in [
-            None,
-            Some(Level::Outside),
-            Some(Level::Admissible),
-            Some(Level::Graded),
-        ] {
+        for level in [None, Some(Level::Outside), Some(Level::Admissible), Some(Level::Graded)] {
             let mut e = end.clone();
             e.level_effective = level;
             variants.push(e);
@@ -429,26 +374,14 @@ fn events_dropped_doubled_swapped_or_cut_off_are_refused() {
         for (i, record) in trace.iter().enumerate() {
             if let Record::Event(_) = record {
                 let rest = &trace[i..];
-                assert!(
-                    refused_after(checker.clone(), &rest[1..]),
-                    "accepted without {record:?}"
-                );
+                assert!(refused_after(checker.clone(), &rest[1..]), "accepted without {record:?}");
                 let doubled = [&rest[..1], rest].concat();
-                assert!(
-                    refused_after(checker.clone(), &doubled),
-                    "accepted with twice {record:?}"
-                );
-                assert!(
-                    refused_after(checker.clone(), &[]),
-                    "accepted cut off at {record:?}"
-                );
+                assert!(refused_after(checker.clone(), &doubled), "accepted with twice {record:?}");
+                assert!(refused_after(checker.clone(), &[]), "accepted cut off at {record:?}");
                 if let Record::Event(_) = rest[1] {
                     let mut swapped = rest.to_vec();
                     swapped.swap(0, 1);
-                    assert!(
-                        refused_after(checker.clone(), &swapped),
-                        "accepted with {record:?} after its successor"
-                    );
+                    assert!(refused_after(checker.clone(), &swapped), "accepted with {record:?} after its successor");
                 }
             }
             assert!(checker.push(record).is_ok());
@@ -458,10 +391,7 @@ fn events_dropped_doubled_swapped_or_cut_off_are_refused() {
 
 /// How many random mutations; the long runs set the variable.
 fn mutations() -> usize {
-    std::env::var("ORTHOBALL_MUTATIONS")
-        .ok()
-        .and_then(|n| n.parse().ok())
-        .unwrap_or(2_000)
+    std::env::var("ORTHOBALL_MUTATIONS").ok().and_then(|n| n.parse().ok()).unwrap_or(2_000)
 }
 
 #[test]
@@ -496,11 +426,7 @@ fn random_mutations_are_refused() {
             }
         }
         if mutant != original {
-            assert!(
-                refused(&mutant),
-                "accepted: a mutant of event {}",
-                i - first
-            );
+            assert!(refused(&mutant), "accepted: a mutant of event {}", i - first);
             done += 1;
         }
     }

@@ -24,14 +24,9 @@ fn table_7_1_agrees_with_the_paper() {
         assert!(!line.fails.is_empty());
         // Type-C: 1.00 as printed where mu is at least 0.8: half way between two squares a square is as near as the ends
         let [_, _, c] = line.extreme.ours;
-        assert!(
-            c > 0.995 && (published.mu < 0.7 || c < 1.005),
-            "row {n}: {c}"
-        );
+        assert!(c > 0.995 && (published.mu < 0.7 || c < 1.005), "row {n}: {c}");
     }
-    let finite = |f: fn(&orthoball::reproduce::Line) -> bool| {
-        table.rows.iter().filter(|line| f(line)).count()
-    };
+    let finite = |f: fn(&orthoball::reproduce::Line) -> bool| table.rows.iter().filter(|line| f(line)).count();
     assert_eq!(finite(|line| line.corrected_printed_c2.is_some()), 12);
     assert_eq!(finite(|line| line.corrected.is_some()), 24);
     assert_eq!(finite(|line| line.refined.is_some()), 24);
@@ -44,11 +39,7 @@ fn figure_7_1_ends_above_30_degrees() {
     let figure = figure_7_1().expect("three runs");
     assert_eq!(
         figure.meshes.iter().map(|m| m.order).collect::<Vec<_>>(),
-        [
-            QueueOrder::Fifo,
-            QueueOrder::WorstFirst,
-            QueueOrder::ShortestEdge
-        ]
+        [QueueOrder::Fifo, QueueOrder::WorstFirst, QueueOrder::ShortestEdge]
     );
     for m in &figure.meshes {
         assert!(m.complete && m.smallest_angle > 30.0, "{:?}", m.order);
@@ -56,10 +47,7 @@ fn figure_7_1_ends_above_30_degrees() {
         assert!((0.9..1.1).contains(&ratio), "{:?}: {ratio}", m.order);
     }
     let count = |tag: &str| figure.svg.matches(tag).count();
-    assert_eq!(
-        (count("<svg"), count("</svg>"), count("<g "), count("</g>")),
-        (1, 1, 3, 3)
-    );
+    assert_eq!((count("<svg"), count("</svg>"), count("<g "), count("</g>")), (1, 1, 3, 3));
     // Euler: v - e + t = 1 in each mesh; each edge is drawn, subsegments and borders twice or once
     let vertices: u32 = figure.meshes.iter().map(|m| m.vertices - 20).sum();
     assert_eq!(count("<circle"), vertices as usize);

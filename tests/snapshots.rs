@@ -25,8 +25,7 @@ const HOLE: &str = "8 2\n1 0 0\n2 3 0\n3 3 3\n4 0 3\n5 0.25 0.5\n6 1.25 0.5\n7 1
 const WEDGE: &str = "4 2\n1 0 0\n2 4 0\n3 4 1\n4 2.5 0\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n";
 
 /// A bar with an isolated vertex close above its lower side.
-const BAR: &str =
-    "5 2\n1 0 0\n2 4 0\n3 4 2\n4 0 2\n5 2.25 0.25\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
+const BAR: &str = "5 2\n1 0 0\n2 4 0\n3 4 2\n4 0 2\n5 2.25 0.25\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
 
 /// Two regions, the right one with an area bound.
 const REGIONS: &str = "6 2\n1 0 0\n2 1 0\n3 2 0\n4 2 1\n5 1 1\n6 0 1\n7 1\n1 1 2 1\n2 2 3 1\n3 3 4 1\n4 4 5 1\n5 5 6 1\n6 6 1 1\n\
@@ -55,27 +54,15 @@ fn snapshot(name: &str, poly: &str, parameters: &GcdrParameters, max_steps: u64)
     let prepared = prepare::<FastKernel>(&input.pslg, &Lines::default());
     assert!(!prepared.has_errors());
     let mut writer = Writer::new(Vec::new(), Format::Text);
-    let mut options = refine::Options {
-        max_steps,
-        ..refine::Options::default()
-    };
+    let mut options = refine::Options { max_steps, ..refine::Options::default() };
     gcdr::run::<FastKernel>(&prepared.pslg, parameters, &mut options, &mut writer).expect("a run");
     let text = writer.finish().expect("a whole trace");
     let mut reader = Reader::new(&text[..]);
-    let records: Vec<Record> = reader
-        .by_ref()
-        .collect::<Result<_, _>>()
-        .expect("what was written is read");
+    let records: Vec<Record> = reader.by_ref().collect::<Result<_, _>>().expect("what was written is read");
     assert!(matches!(records.last(), Some(Record::End(end)) if end.trace == reader.digest()));
-    let strict = Options {
-        strict: true,
-        digests: true,
-    };
+    let strict = Options { strict: true, digests: true };
     let verdict = verify(&records, strict);
-    assert!(
-        matches!(&verdict, Verdict::Accepted { unchecked, .. } if unchecked.is_empty()),
-        "{verdict:?}"
-    );
+    assert!(matches!(&verdict, Verdict::Accepted { unchecked, .. } if unchecked.is_empty()), "{verdict:?}");
     let text = String::from_utf8(text).expect("text");
     insta::with_settings!({
         snapshot_path => "../snapshots",
@@ -101,10 +88,7 @@ fn hole() {
 /// Splits on concentric shells at a small input angle, and the triangles it spoils skipped with the reason `input-angle`.
 #[test]
 fn wedge_with_shells() {
-    let parameters = GcdrParameters {
-        max_area: Some(0.5),
-        ..defaults()
-    };
+    let parameters = GcdrParameters { max_area: Some(0.5), ..defaults() };
     snapshot("wedge", WEDGE, &parameters, 1000);
 }
 
@@ -147,10 +131,7 @@ fn type_c() {
 /// Area bounds, of a region and of the whole: oversized triangles after skinny ones; markers and attributes in the domain.
 #[test]
 fn area() {
-    let parameters = GcdrParameters {
-        max_area: Some(0.25),
-        ..chosen(DiskChoice::Center, Choice::Center, 25.0)
-    };
+    let parameters = GcdrParameters { max_area: Some(0.25), ..chosen(DiskChoice::Center, Choice::Center, 25.0) };
     snapshot("area", REGIONS, &parameters, 1000);
 }
 

@@ -3,8 +3,7 @@
 use orthoball::arith::FastKernel;
 use orthoball::check::spacing::{Kind, Row, Spacing, Violation};
 use orthoball::model::{
-    Choice, DiskChoice, GcdrParameters, Level, Point2, Pslg, QueueOrder, Segment, SmallAngles,
-    VertexId,
+    Choice, DiskChoice, GcdrParameters, Level, Point2, Pslg, QueueOrder, Segment, SmallAngles, VertexId,
 };
 use orthoball::refine::{Options, gcdr};
 use orthoball::reproduce::squares::{Experiment, measure, parameters, squares};
@@ -12,8 +11,7 @@ use orthoball::trace::{Cause, Event, Record, Recorder, SplitKind, Why};
 
 fn records(pslg: &Pslg, parameters: &GcdrParameters) -> Vec<Record> {
     let mut recorder = Recorder::default();
-    gcdr::run::<FastKernel>(pslg, parameters, &mut Options::default(), &mut recorder)
-        .expect("a good input");
+    gcdr::run::<FastKernel>(pslg, parameters, &mut Options::default(), &mut recorder).expect("a good input");
     recorder.0
 }
 
@@ -32,11 +30,7 @@ fn polygon(corners: &[(f64, f64)]) -> Pslg {
     Pslg {
         points: corners.iter().map(|(x, y)| Point2::new(*x, *y)).collect(),
         segments: (0..n)
-            .map(|i| Segment {
-                ends: [VertexId(i), VertexId((i + 1) % n)],
-                marker: 0,
-                toggles: true,
-            })
+            .map(|i| Segment { ends: [VertexId(i), VertexId((i + 1) % n)], marker: 0, toggles: true })
             .collect(),
         ..Pslg::default()
     }
@@ -44,29 +38,12 @@ fn polygon(corners: &[(f64, f64)]) -> Pslg {
 
 #[test]
 fn every_choice_on_the_squares_is_accepted_and_decided() {
-    for experiment in [
-        Experiment::Center,
-        Experiment::Extreme,
-        Experiment::Random(7),
-    ] {
-        let measured = measure(&parameters(
-            2.0,
-            [0.9, 0.9, 0.4],
-            experiment,
-            QueueOrder::ShortestEdge,
-        ))
-        .expect("it runs");
+    for experiment in [Experiment::Center, Experiment::Extreme, Experiment::Random(7)] {
+        let measured =
+            measure(&parameters(2.0, [0.9, 0.9, 0.4], experiment, QueueOrder::ShortestEdge)).expect("it runs");
         assert_eq!(measured.violation, None);
         let rows = &measured.report.rows;
-        for row in [
-            Row::I1,
-            Row::A6,
-            Row::B5,
-            Row::C3,
-            Row::C4,
-            Row::F1,
-            Row::F2,
-        ] {
+        for row in [Row::I1, Row::A6, Row::B5, Row::C3, Row::C4, Row::F1, Row::F2] {
             let count = rows.get(&row).copied().unwrap_or_default();
             assert!(count.held > 0, "{row}: {count:?}");
             assert_eq!(count.undecided, 0, "{row}");
@@ -80,12 +57,7 @@ fn an_oblique_graph_with_incident_segments_is_accepted() {
     let mut pslg = polygon(&[(0.1, 0.0), (7.3, 1.1), (9.1, 6.7), (4.4, 9.9), (-1.7, 5.2)]);
     pslg.points.push(Point2::new(3.9, 4.7));
     pslg.points.push(Point2::new(4.1, 4.9));
-    let mut p = parameters(
-        2.0,
-        [0.9, 0.9, 0.9],
-        Experiment::Random(3),
-        QueueOrder::WorstFirst,
-    );
+    let mut p = parameters(2.0, [0.9, 0.9, 0.9], Experiment::Random(3), QueueOrder::WorstFirst);
     for seed in 0..20 {
         p.seed = Some(seed);
         let spacing = feed(&records(&pslg, &p)).unwrap_or_else(|v| panic!("{v:?}"));
@@ -101,9 +73,7 @@ fn runs_outside_the_theorem_claim_nothing_at_the_end() {
     p.choice_b = Choice::Center;
     p.small_angles = SmallAngles::Shells;
     let records = records(&squares(), &p);
-    let Some(Record::End(end)) = records.last() else {
-        panic!("a trace ends")
-    };
+    let Some(Record::End(end)) = records.last() else { panic!("a trace ends") };
     assert_ne!(end.level_effective, Some(Level::Graded));
     let spacing = feed(&records).expect("the rows of events hold");
     let f1 = spacing.report().rows[&Row::F1];
@@ -114,30 +84,18 @@ fn runs_outside_the_theorem_claim_nothing_at_the_end() {
 /// The records up to the end of the start, with the square (0,0)-(8,8), a free-standing inner vertex and parameters rho^2 = 2, others 1.
 fn head(pslg: &Pslg) -> Vec<Record> {
     let p = parameters(2.0, [1.0; 3], Experiment::Center, QueueOrder::Fifo);
-    records(pslg, &p)
-        .into_iter()
-        .take_while(|r| !matches!(r, Record::Event(_) | Record::End(_)))
-        .collect()
+    records(pslg, &p).into_iter().take_while(|r| !matches!(r, Record::Event(_) | Record::End(_))).collect()
 }
 
 fn free(p: (f64, f64), destroyed: &[[u32; 3]]) -> Record {
     Record::Event(Event::Insert {
         p: Point2::new(p.0, p.1),
-        why: Why::Free {
-            cause: Cause::Skinny,
-        },
+        why: Why::Free { cause: Cause::Skinny },
         destroyed: destroyed.iter().map(|t| t.map(VertexId)).collect(),
     })
 }
 
-fn split(
-    p: (f64, f64),
-    a: (f64, f64),
-    kind: SplitKind,
-    s: [u32; 2],
-    t: [u32; 3],
-    destroyed: &[[u32; 3]],
-) -> Record {
+fn split(p: (f64, f64), a: (f64, f64), kind: SplitKind, s: [u32; 2], t: [u32; 3], destroyed: &[[u32; 3]]) -> Record {
     Record::Event(Event::Insert {
         p: Point2::new(p.0, p.1),
         why: Why::Split {
@@ -165,18 +123,9 @@ fn a6_rejects_a_center_beside_a_vertex_that_its_circle_should_not_hold() {
     let mut pslg = polygon(&[(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)]);
     pslg.points.push(Point2::new(4.01, 4.0));
     let head = head(&pslg);
-    assert_eq!(
-        rejected(&head, &[free((4.0, 4.0), &[[0, 1, 2], [0, 2, 4]])]),
-        Row::A6
-    );
+    assert_eq!(rejected(&head, &[free((4.0, 4.0), &[[0, 1, 2], [0, 2, 4]])]), Row::A6);
     // without it nothing is wrong with the spacing
-    assert!(
-        feed(
-            head.iter()
-                .chain(&[free((4.0, 4.0), &[[0, 1, 2], [0, 2, 3]])])
-        )
-        .is_ok()
-    );
+    assert!(feed(head.iter().chain(&[free((4.0, 4.0), &[[0, 1, 2], [0, 2, 3]])])).is_ok());
 }
 
 #[test]
@@ -185,25 +134,9 @@ fn b5_rejects_a_parent_too_far_and_a_free_vertex_left_in_the_disk() {
     pslg.points.push(Point2::new(4.0, 7.0));
     let head = head(&pslg);
     // (4, 15.5) is the center of 2 3 4, and its parent 4 is 7 away from the middle of s = 0 1, more than |s|/2
-    let far = split(
-        (4.0, 0.0),
-        (4.0, 15.5),
-        SplitKind::B,
-        [0, 1],
-        [2, 3, 4],
-        &[[0, 1, 4]],
-    );
+    let far = split((4.0, 0.0), (4.0, 15.5), SplitKind::B, [0, 1], [2, 3, 4], &[[0, 1, 4]]);
     assert_eq!(rejected(&head, &[far]), Row::B5);
-    let split = |destroyed: &[[u32; 3]]| {
-        split(
-            (4.0, 0.0),
-            (4.0, 4.0),
-            SplitKind::B,
-            [0, 1],
-            [0, 1, 2],
-            destroyed,
-        )
-    };
+    let split = |destroyed: &[[u32; 3]]| split((4.0, 0.0), (4.0, 4.0), SplitKind::B, [0, 1], [0, 1, 2], destroyed);
     assert!(feed(head.iter().chain(&[split(&[[0, 1, 4]])])).is_ok());
     let mut spacing = Spacing::new();
     for record in &head {
@@ -211,9 +144,7 @@ fn b5_rejects_a_parent_too_far_and_a_free_vertex_left_in_the_disk() {
     }
     // its own rows may fail: it only has to be there
     let _ = spacing.record(&free((4.0, 0.01), &[[0, 1, 4]]));
-    let violation = spacing
-        .record(&split(&[[0, 1, 5]]))
-        .expect_err("R = 1/100, lfs = 4");
+    let violation = spacing.record(&split(&[[0, 1, 5]])).expect_err("R = 1/100, lfs = 4");
     assert_eq!(violation.row, Row::B5);
 }
 
@@ -223,16 +154,7 @@ fn c4_rejects_a_parent_outside_the_disk() {
     pslg.points.push(Point2::new(4.0, 4.5));
     let head = head(&pslg);
     let event = |parent| {
-        split(
-            (4.0, 0.0),
-            (4.0, -1.0),
-            SplitKind::C {
-                parent: VertexId(parent),
-            },
-            [0, 1],
-            [0, 1, 4],
-            &[[0, 1, 4]],
-        )
+        split((4.0, 0.0), (4.0, -1.0), SplitKind::C { parent: VertexId(parent) }, [0, 1], [0, 1, 4], &[[0, 1, 4]])
     };
     assert_eq!(rejected(&head, &[event(4)]), Row::C4);
     assert_eq!(rejected(&head, &[event(2)]), Row::C4);
@@ -243,56 +165,24 @@ fn c4_rejects_a_parent_outside_the_disk() {
 fn c4_rejects_a_density_that_an_incident_parent_does_not_allow() {
     // a corner of 65 degrees at vertex 0; vertex 4 splits one side 3 from the corner, inside Diam of the other side
     let (sin, cos) = 65f64.to_radians().sin_cos();
-    let pslg = polygon(&[
-        (0.0, 0.0),
-        (8.0, 0.0),
-        (8.0 + 8.0 * cos, 8.0 * sin),
-        (8.0 * cos, 8.0 * sin),
-    ]);
+    let pslg = polygon(&[(0.0, 0.0), (8.0, 0.0), (8.0 + 8.0 * cos, 8.0 * sin), (8.0 * cos, 8.0 * sin)]);
     let head = head(&pslg);
     let center = (4.0, 3.0);
-    let first = split(
-        (3.0 * cos, 3.0 * sin),
-        center,
-        SplitKind::B,
-        [0, 3],
-        [0, 1, 3],
-        &[[0, 1, 3]],
-    );
+    let first = split((3.0 * cos, 3.0 * sin), center, SplitKind::B, [0, 3], [0, 1, 3], &[[0, 1, 3]]);
     let second = |destroyed: &[[u32; 3]]| {
-        split(
-            (4.0, 0.0),
-            center,
-            SplitKind::C {
-                parent: VertexId(4),
-            },
-            [0, 1],
-            [0, 1, 4],
-            destroyed,
-        )
+        split((4.0, 0.0), center, SplitKind::C { parent: VertexId(4) }, [0, 1], [0, 1, 4], destroyed)
     };
     let mut spacing = Spacing::new();
     for record in head.iter().chain([&first]) {
         spacing.record(record).unwrap_or_else(|v| panic!("{v:?}"));
     }
     let mut honest = spacing.clone();
-    honest
-        .record(&second(&[[0, 1, 4]]))
-        .unwrap_or_else(|v| panic!("{v:?}"));
-    assert_eq!(
-        honest.report().rows[&Row::C4].held,
-        2,
-        "distance and density"
-    );
+    honest.record(&second(&[[0, 1, 4]])).unwrap_or_else(|v| panic!("{v:?}"));
+    assert_eq!(honest.report().rows[&Row::C4].held, 2, "distance and density");
     // its own rows may fail: it only has to be there
     let _ = spacing.record(&free((4.0, 0.01), &[[0, 1, 4]]));
-    let violation = spacing
-        .record(&second(&[[0, 1, 5]]))
-        .expect_err("R = 1/100, lfs = 4");
-    assert_eq!(
-        (violation.row, violation.expected.as_str()),
-        (Row::C4, "D <= B4 + D'/C4, times R")
-    );
+    let violation = spacing.record(&second(&[[0, 1, 5]])).expect_err("R = 1/100, lfs = 4");
+    assert_eq!((violation.row, violation.expected.as_str()), (Row::C4, "D <= B4 + D'/C4, times R"));
 }
 
 #[test]
@@ -303,16 +193,7 @@ fn c3_rejects_a_radius_below_local_feature_size() {
     let head = head(&pslg);
     let stray = free((4.0, 0.5), &[[0, 1, 4]]);
     let split = |destroyed: &[[u32; 3]]| {
-        split(
-            (4.0, 0.0),
-            (4.0, -1.0),
-            SplitKind::C {
-                parent: VertexId(4),
-            },
-            [0, 1],
-            [0, 1, 4],
-            destroyed,
-        )
+        split((4.0, 0.0), (4.0, -1.0), SplitKind::C { parent: VertexId(4) }, [0, 1], [0, 1, 4], destroyed)
     };
     let mut spacing = Spacing::new();
     for record in head.iter().chain(&[split(&[[0, 1, 4]])]) {
@@ -325,9 +206,7 @@ fn c3_rejects_a_radius_below_local_feature_size() {
     }
     // its own rows may fail: it only has to be there
     let _ = spacing.record(&stray);
-    let violation = spacing
-        .record(&split(&[[0, 1, 5]]))
-        .expect_err("R = 1/2 < lfs = 3");
+    let violation = spacing.record(&split(&[[0, 1, 5]])).expect_err("R = 1/2 < lfs = 3");
     assert_eq!(violation.row, Row::C3);
 }
 
@@ -339,26 +218,16 @@ fn f1_and_f2_reject_what_the_grading_constants_forbid() {
     let mut spacing = feed(&honest).expect("a graded run");
     // an edge between the two input vertices of least distance is fine, one of length 0 is not
     assert!(spacing.finish(None, [[VertexId(0), VertexId(4)]]).is_ok());
-    let violation = spacing
-        .finish(None, [[VertexId(0), VertexId(0)]])
-        .expect_err("a loop");
+    let violation = spacing.finish(None, [[VertexId(0), VertexId(0)]]).expect_err("a loop");
     assert_eq!(violation.row, Row::F2);
     // with size as the cause no row of the event speaks, and no theorem either
     let mut sized = honest.clone();
     for record in &mut sized {
-        if let Record::Event(Event::Insert {
-            why: Why::Free { cause } | Why::Split { cause, .. },
-            ..
-        }) = record
-        {
+        if let Record::Event(Event::Insert { why: Why::Free { cause } | Why::Split { cause, .. }, .. }) = record {
             *cause = Cause::Area;
         }
     }
-    let rows = feed(&sized)
-        .expect("nothing is claimed")
-        .report()
-        .rows
-        .clone();
+    let rows = feed(&sized).expect("nothing is claimed").report().rows.clone();
     assert_eq!((rows[&Row::F1].held, rows[&Row::A6].held), (0, 0));
     assert!(rows[&Row::F1].unclaimed > 0 && rows[&Row::A6].unclaimed > 0);
 }
@@ -371,22 +240,8 @@ fn records_that_name_nothing_are_refused_without_a_panic() {
         free((4.0, 4.0), &[[0, 1, 99]]),
         free((4.0, 4.0), &[]),
         free((f64::NAN, 4.0), &[[0, 1, 2]]),
-        split(
-            (4.0, 4.0),
-            (4.0, 4.0),
-            SplitKind::B,
-            [0, 2],
-            [0, 1, 2],
-            &[[0, 1, 2]],
-        ),
-        split(
-            (4.0, 4.0),
-            (4.0, 4.0),
-            SplitKind::B,
-            [0, 99],
-            [0, 1, 2],
-            &[[0, 1, 2]],
-        ),
+        split((4.0, 4.0), (4.0, 4.0), SplitKind::B, [0, 2], [0, 1, 2], &[[0, 1, 2]]),
+        split((4.0, 4.0), (4.0, 4.0), SplitKind::B, [0, 99], [0, 1, 2], &[[0, 1, 2]]),
     ];
     for record in bad {
         assert_eq!(rejected(&head, &[record]), Row::Record);

@@ -80,78 +80,42 @@ impl Draws {
         let [x, y] = match family {
             Family::Random => [self.unit(), self.unit()],
             Family::SmallGrid => [self.below(5) as f64 / 8.0, self.below(5) as f64 / 8.0],
-            Family::FineGrid => [
-                self.below(1 << 26) as f64 / 67108864.0,
-                self.below(1 << 26) as f64 / 67108864.0,
-            ],
+            Family::FineGrid => [self.below(1 << 26) as f64 / 67108864.0, self.below(1 << 26) as f64 / 67108864.0],
             Family::Cocircular | Family::NearDegenerate => {
                 let [x, y] = self.on_circle(frame);
-                let noise = if family == Family::Cocircular {
-                    0.0
-                } else {
-                    frame.noise
-                };
+                let noise = if family == Family::Cocircular { 0.0 } else { frame.noise };
                 [x + noise * self.unit(), y + noise * self.unit()]
             }
             Family::Collinear => {
                 let s = self.below(9) as f64 - 4.0;
-                [
-                    frame.origin.x + s * frame.step.x,
-                    frame.origin.y + s * frame.step.y,
-                ]
+                [frame.origin.x + s * frame.step.x, frame.origin.y + s * frame.step.y]
             }
-            Family::BigOffset => [
-                0.75 + frame.noise * self.unit(),
-                -0.6 + frame.noise * self.unit(),
-            ],
-            Family::WildScales => [
-                self.unit() * self.power_of_two(-40, 40),
-                self.unit() * self.power_of_two(-40, 40),
-            ],
-            Family::Extremes => [
-                self.unit() * self.power_of_two(-141, 200),
-                self.unit() * self.power_of_two(-141, 200),
-            ],
+            Family::BigOffset => [0.75 + frame.noise * self.unit(), -0.6 + frame.noise * self.unit()],
+            Family::WildScales => [self.unit() * self.power_of_two(-40, 40), self.unit() * self.power_of_two(-40, 40)],
+            Family::Extremes => {
+                [self.unit() * self.power_of_two(-141, 200), self.unit() * self.power_of_two(-141, 200)]
+            }
             Family::ScaledNearDegenerate => {
                 let p = self.point(Family::NearDegenerate, frame);
                 [p.x * frame.scale, p.y * frame.scale]
             }
             Family::FarAway => {
-                let far = if self.below(3) == 0 {
-                    self.power_of_two(0, 200)
-                } else {
-                    1.0
-                };
+                let far = if self.below(3) == 0 { self.power_of_two(0, 200) } else { 1.0 };
                 [self.unit() * far, self.unit() * far]
             }
-            Family::Tiny => [
-                self.unit() * self.power_of_two(-141, 0),
-                self.unit() * self.power_of_two(-141, 0),
-            ],
+            Family::Tiny => [self.unit() * self.power_of_two(-141, 0), self.unit() * self.power_of_two(-141, 0)],
         };
         Point2::new(round::flushed(x) + 0.0, round::flushed(y) + 0.0)
     }
 
     /// One of the integer points of the circle of radius 65 in the frame; every second noisy frame has a line instead.
     fn on_circle(&mut self, frame: &Frame) -> [f64; 2] {
-        const QUARTER: [(f64, f64); 5] = [
-            (65.0, 0.0),
-            (63.0, 16.0),
-            (60.0, 25.0),
-            (56.0, 33.0),
-            (52.0, 39.0),
-        ];
+        const QUARTER: [(f64, f64); 5] = [(65.0, 0.0), (63.0, 16.0), (60.0, 25.0), (56.0, 33.0), (52.0, 39.0)];
         let (a, b) = QUARTER[self.below(5) as usize];
         let (a, b) = if self.below(2) == 0 { (a, b) } else { (b, a) };
-        let (a, b) = (
-            if self.below(2) == 0 { a } else { -a },
-            if self.below(2) == 0 { b } else { -b },
-        );
+        let (a, b) = (if self.below(2) == 0 { a } else { -a }, if self.below(2) == 0 { b } else { -b });
         let b = if frame.flat { 0.0 } else { b };
-        [
-            frame.origin.x + a * frame.size,
-            frame.origin.y + b * frame.size,
-        ]
+        [frame.origin.x + a * frame.size, frame.origin.y + b * frame.size]
     }
 }
 
@@ -173,10 +137,7 @@ impl Frame {
             step: Point2::new(integer(d), integer(d)),
             size: d.power_of_two(-12, -7),
             noise: d.power_of_two(-55, -10),
-            flat: matches!(
-                family,
-                Family::NearDegenerate | Family::ScaledNearDegenerate
-            ) && d.below(2) == 0,
+            flat: matches!(family, Family::NearDegenerate | Family::ScaledNearDegenerate) && d.below(2) == 0,
             scale: d.power_of_two(-140, 199),
         }
     }
@@ -198,10 +159,7 @@ struct Case {
 
 impl Case {
     fn new(family: Family, number: u64) -> Case {
-        let mut d = Draws {
-            key: [number as u32, (number >> 32) as u32 ^ (family as u32) << 24],
-            next: 0,
-        };
+        let mut d = Draws { key: [number as u32, (number >> 32) as u32 ^ (family as u32) << 24], next: 0 };
         let frame = Frame::of(&mut d, family);
         let mut p = [(); 6].map(|()| d.point(family, &frame));
         match ExactKernel::orient2d(p[0], p[1], p[2]) {
@@ -228,34 +186,15 @@ impl Case {
             1 => d.power_of_two(-400, 400),
             _ => (d.unit().abs() + 1e-9) * d.power_of_two(-30, 4),
         };
-        let kappa = if d.below(2) == 0 {
-            angle::kappa(rho2)
-        } else {
-            d.one_of([0.5, 1.0, 0.25, 1.5])
-        };
-        let other_bound = if d.below(2) == 0 {
-            bound
-        } else {
-            d.power_of_two(-20, 20)
-        };
+        let kappa = if d.below(2) == 0 { angle::kappa(rho2) } else { d.one_of([0.5, 1.0, 0.25, 1.5]) };
+        let other_bound = if d.below(2) == 0 { bound } else { d.power_of_two(-20, 20) };
         let (x, y) = match d.below(3) {
             0 => (1.0, 0.0),
             1 => (-1.0, 0.0),
             _ => (d.unit(), d.unit()),
         };
         let cos2 = d.one_of([0.25, 0.75, 1.0, 0.5, 0.1]);
-        Case {
-            p,
-            proper,
-            rho2,
-            d2,
-            x,
-            y,
-            kappa,
-            bound,
-            other_bound,
-            cos2,
-        }
+        Case { p, proper, rho2, d2, x, y, kappa, bound, other_bound, cos2 }
     }
 
     /// All answers of a kernel, named, floats as bits.
@@ -272,36 +211,15 @@ impl Case {
         let [a, b, c, d, ..] = self.p;
         let mut say = |name, answer| all.push(name, answer);
         say("orient2d", format!("{:?}", K::orient2d(b, d, c)));
-        say(
-            "in_diametral_circle",
-            format!("{:?}", K::in_diametral_circle(a, b, c)),
-        );
-        say(
-            "walk_side",
-            format!("{:?}", K::walk_side([a, b, c], d, self.p[4])),
-        );
-        say(
-            "edge_meets_diametral_disk",
-            format!("{:?}", K::edge_meets_diametral_disk(a, b, c, d)),
-        );
-        say(
-            "compare_lengths",
-            format!("{:?}", K::compare_lengths(a, b, c, d)),
-        );
-        say(
-            "compare_cos2",
-            format!("{:?}", K::compare_cos2(a, b, c, self.cos2)),
-        );
-        say(
-            "in_selection_interval",
-            format!("{:?}", K::in_selection_interval(a, b, self.d2, c)),
-        );
+        say("in_diametral_circle", format!("{:?}", K::in_diametral_circle(a, b, c)));
+        say("walk_side", format!("{:?}", K::walk_side([a, b, c], d, self.p[4])));
+        say("edge_meets_diametral_disk", format!("{:?}", K::edge_meets_diametral_disk(a, b, c, d)));
+        say("compare_lengths", format!("{:?}", K::compare_lengths(a, b, c, d)));
+        say("compare_cos2", format!("{:?}", K::compare_cos2(a, b, c, self.cos2)));
+        say("in_selection_interval", format!("{:?}", K::in_selection_interval(a, b, self.d2, c)));
         say("length2", bits(K::length2(a, b)));
         say("area_ratio", bits(K::area_ratio([a, b, c], self.bound)));
-        say(
-            "exceeds_area",
-            format!("{:?}", K::exceeds_area([a, b, c], self.bound)),
-        );
+        say("exceeds_area", format!("{:?}", K::exceeds_area([a, b, c], self.bound)));
         say("midpoint", point(K::midpoint(a, b)));
         say("in_interval", point(K::in_interval(a, b, self.d2, self.x)));
         if a != b {
@@ -314,62 +232,28 @@ impl Case {
     fn triangle<K: Kernel>(&self, all: &mut Answers) {
         let [a, b, c, d, e, f] = self.p;
         let t = [a, b, c];
-        let u = if ExactKernel::orient2d(d, e, f).is_positive() {
-            [d, e, f]
-        } else {
-            [b, c, a]
-        };
+        let u = if ExactKernel::orient2d(d, e, f).is_positive() { [d, e, f] } else { [b, c, a] };
         let mut say = |name, answer| all.push(name, answer);
         say("in_circle", format!("{:?}", K::in_circle(t, d)));
         if !t.contains(&d) {
             say("in_conflict", format!("{:?}", K::in_conflict(t, d)));
         }
         say("compare_ratio", format!("{:?}", K::compare_ratio(t, u)));
-        say(
-            "compare_area_ratio",
-            format!(
-                "{:?}",
-                K::compare_area_ratio(t, self.bound, u, self.other_bound)
-            ),
-        );
-        say(
-            "compare_radius_ratio",
-            format!(
-                "{:?}",
-                K::compare_radius_ratio(t, self.bound, u, self.other_bound)
-            ),
-        );
+        say("compare_area_ratio", format!("{:?}", K::compare_area_ratio(t, self.bound, u, self.other_bound)));
+        say("compare_radius_ratio", format!("{:?}", K::compare_radius_ratio(t, self.bound, u, self.other_bound)));
         say("is_skinny", format!("{:?}", K::is_skinny(t, self.rho2)));
-        say(
-            "exceeds_radius",
-            format!("{:?}", K::exceeds_radius(t, self.bound)),
-        );
-        say(
-            "in_selection_disk",
-            format!("{:?}", K::in_selection_disk(t, self.d2, d)),
-        );
+        say("exceeds_radius", format!("{:?}", K::exceeds_radius(t, self.bound)));
+        say("in_selection_disk", format!("{:?}", K::in_selection_disk(t, self.d2, d)));
         say("ratio2", bits(K::ratio2(t)));
         say("radius_ratio2", bits(K::radius_ratio2(t, self.bound)));
         say("circumcenter", maybe_point(K::circumcenter(t)));
-        say(
-            "in_disk",
-            maybe_point(K::in_disk(t, self.d2, self.x, self.y)),
-        );
+        say("in_disk", maybe_point(K::in_disk(t, self.d2, self.x, self.y)));
         say("offcenter", maybe_point(K::offcenter(t, self.kappa)));
-        say(
-            "clamped_offcenter",
-            maybe_point(K::clamped_offcenter(t, self.kappa, self.d2)),
-        );
+        say("clamped_offcenter", maybe_point(K::clamped_offcenter(t, self.kappa, self.d2)));
         if let Ok(o) = K::circumcenter(t) {
             say("in_circle of center", format!("{:?}", K::in_circle(t, o)));
-            say(
-                "in_selection_disk of center",
-                format!("{:?}", K::in_selection_disk(t, self.d2, o)),
-            );
-            say(
-                "walk_side to center",
-                format!("{:?}", K::walk_side(t, o, b)),
-            );
+            say("in_selection_disk of center", format!("{:?}", K::in_selection_disk(t, self.d2, o)));
+            say("walk_side to center", format!("{:?}", K::walk_side(t, o, b)));
         }
     }
 }
@@ -401,10 +285,7 @@ fn maybe_point(p: Result<Point2, super::OutOfRange>) -> String {
 }
 
 fn cases() -> u64 {
-    std::env::var("ORTHOBALL_CASES")
-        .ok()
-        .and_then(|n| n.parse().ok())
-        .unwrap_or(2_000)
+    std::env::var("ORTHOBALL_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(2_000)
 }
 
 #[test]
@@ -425,10 +306,7 @@ fn fast_and_exact_agree_to_the_bit() {
             }
         }
         println!("{family:?}: answers by running filter, by double-double, by exact integers");
-        for (name, counts) in shares
-            .iter()
-            .filter(|(_, counts)| counts[1] + counts[2] > 0)
-        {
+        for (name, counts) in shares.iter().filter(|(_, counts)| counts[1] + counts[2] > 0) {
             println!("    {name}: {counts:?}");
         }
     }
@@ -437,13 +315,7 @@ fn fast_and_exact_agree_to_the_bit() {
 /// The comparison can fail: the control's constructions differ in every family that has rounded results.
 #[test]
 fn the_plain_kernel_is_found_out() {
-    for family in [
-        Family::Random,
-        Family::NearDegenerate,
-        Family::BigOffset,
-        Family::WildScales,
-        Family::FarAway,
-    ] {
+    for family in [Family::Random, Family::NearDegenerate, Family::BigOffset, Family::WildScales, Family::FarAway] {
         let differs = (0..50).filter(|&n| {
             let case = Case::new(family, n);
             case.answers::<PlainKernel>().values != case.answers::<ExactKernel>().values
@@ -471,10 +343,7 @@ fn determinant(m: &[Vec<Infinitesimal>]) -> Infinitesimal {
     }
     let mut sum: Infinitesimal = vec![];
     for row in 0..m.len() {
-        let minor: Vec<Vec<Infinitesimal>> = (0..m.len())
-            .filter(|&r| r != row)
-            .map(|r| m[r][1..].to_vec())
-            .collect();
+        let minor: Vec<Vec<Infinitesimal>> = (0..m.len()).filter(|&r| r != row).map(|r| m[r][1..].to_vec()).collect();
         let term = product(&m[row][0], &determinant(&minor));
         sum.resize(sum.len().max(term.len()), Rational::new());
         for (s, t) in sum.iter_mut().zip(term) {
@@ -491,10 +360,7 @@ fn in_conflict_by_definition(t: Corners, q: Point2) -> bool {
         .iter()
         .map(|p| {
             let above = points.iter().filter(|o| (o.x, o.y) > (p.x, p.y)).count();
-            let (x, y) = (
-                Rational::from_f64(p.x).unwrap(),
-                Rational::from_f64(p.y).unwrap(),
-            );
+            let (x, y) = (Rational::from_f64(p.x).unwrap(), Rational::from_f64(p.y).unwrap());
             let mut lift = vec![Rational::new(); above + 2];
             lift[0] = x.clone().square() + y.clone().square();
             lift[above + 1] = Rational::from(1);

@@ -88,10 +88,7 @@ fn enclosed_root(x: &Dyadic, bits: usize) -> (Dyadic, Dyadic) {
 
 /// The largest f64 at most 2^exponent/den, den positive.
 fn floor_ratio(exponent: i64, den: IBig) -> f64 {
-    let (num, den) = (
-        Dyadic::integer(1).scaled(exponent),
-        Dyadic::from_parts(den, 0),
-    );
+    let (num, den) = (Dyadic::integer(1).scaled(exponent), Dyadic::from_parts(den, 0));
     let nearest = round::ratio(&num, &den);
     match Dyadic::from_f64(nearest) {
         Some(v) if (&(&v * &den) - &num).sign() != Sign::Positive => nearest,
@@ -103,9 +100,7 @@ fn floor_ratio(exponent: i64, den: IBig) -> f64 {
 fn versine_of_double(degrees: f64, bits: usize) -> (IBig, IBig) {
     // 2 theta = degrees pi/90, over 2^-fine; the extra bits keep the relative precision of small angles.
     // The caller has checked the range, so that the value is finite.
-    let (m, e) = Dyadic::from_f64(degrees)
-        .map(|d| (d.parts().0.clone(), d.parts().1))
-        .expect("finite");
+    let (m, e) = Dyadic::from_f64(degrees).map(|d| (d.parts().0.clone(), d.parts().1)).expect("finite");
     let (pi, pi_error) = pi(bits);
     let scaled = |numerator: IBig| shift_floor(numerator * &m, e) / IBig::from(90);
     let low = scaled(&pi - &pi_error);
@@ -118,20 +113,13 @@ fn versine_of_double(degrees: f64, bits: usize) -> (IBig, IBig) {
 
 /// floor(n 2^e).
 fn shift_floor(n: IBig, e: i64) -> IBig {
-    if e >= 0 {
-        n << e as usize
-    } else {
-        n >> (-e) as usize
-    }
+    if e >= 0 { n << e as usize } else { n >> (-e) as usize }
 }
 
 /// pi over 2^-bits and a bound of the error, in units: 16 atan(1/5) - 4 atan(1/239) (Machin).
 fn pi(bits: usize) -> (IBig, IBig) {
     let ((a, ea), (b, eb)) = (arctan_inverse(5, bits), arctan_inverse(239, bits));
-    (
-        a * IBig::from(16) - b * IBig::from(4),
-        IBig::from(16 * ea + 4 * eb),
-    )
+    (a * IBig::from(16) - b * IBig::from(4), IBig::from(16 * ea + 4 * eb))
 }
 
 /// atan(1/n) over 2^-bits and a bound of the error: the alternating series 1/n - 1/(3 n^3) + ...
@@ -194,11 +182,7 @@ mod tests {
             (60.0, 0x3fd5_5555_5555_5555),
             (89.99999999, 0x3fd0_0000_0000_0000),
         ] {
-            assert_eq!(
-                rho2_from_min_angle(degrees).unwrap().to_bits(),
-                expected,
-                "{degrees}"
-            );
+            assert_eq!(rho2_from_min_angle(degrees).unwrap().to_bits(), expected, "{degrees}");
         }
         assert_eq!(rho2_from_min_angle(30.0), Ok(1.0));
         assert_eq!(rho2_from_min_angle(45.0), Ok(0.5));
@@ -206,16 +190,7 @@ mod tests {
 
     #[test]
     fn impossible_angles_are_refused() {
-        for degrees in [
-            0.0,
-            -0.0,
-            -1.0,
-            90.0,
-            1e300,
-            f64::INFINITY,
-            f64::NAN,
-            f64::from_bits(1),
-        ] {
+        for degrees in [0.0, -0.0, -1.0, 90.0, 1e300, f64::INFINITY, f64::NAN, f64::from_bits(1)] {
             assert!(rho2_from_min_angle(degrees).is_err(), "{degrees}");
         }
     }
@@ -233,16 +208,7 @@ mod tests {
     fn kappa_is_the_nearest_f64() {
         use rug::Rational;
         let rational = |x: f64| Rational::from_f64(x).unwrap();
-        for rho2 in [
-            1.0,
-            2.0,
-            1.3997274830283475,
-            0.26,
-            1.25,
-            820.7849259134717,
-            1e200,
-            0.25f64.next_up(),
-        ] {
+        for rho2 in [1.0, 2.0, 1.3997274830283475, 0.26, 1.25, 820.7849259134717, 1e200, 0.25f64.next_up()] {
             let (a, b) = (rational(rho2), rational(rho2) - rational(0.25));
             let below = |m: Rational| {
                 let s: Rational = (m * Rational::from((100, 99))).square() - &a - &b;
@@ -250,10 +216,7 @@ mod tests {
             };
             let k = kappa(rho2);
             let middle = |other: f64| (rational(k) + rational(other)) / 2u32;
-            assert!(
-                below(middle(k.next_down())) && !below(middle(k.next_up())),
-                "{rho2}"
-            );
+            assert!(below(middle(k.next_down())) && !below(middle(k.next_up())), "{rho2}");
         }
     }
 }

@@ -28,13 +28,7 @@ struct Pair {
 fn two_products(a: f64, b: f64, c: f64, d: f64) -> (Pair, f64) {
     let ((p, p_tail), (q, q_tail)) = (two_product(a, b), two_product(c, d));
     let (hi, tail) = two_sum(p, q);
-    (
-        Pair {
-            hi,
-            lo: tail + (p_tail + q_tail),
-        },
-        p.abs() + q.abs(),
-    )
+    (Pair { hi, lo: tail + (p_tail + q_tail) }, p.abs() + q.abs())
 }
 
 /// a b + c d for squared lengths a, c of `two_products`, off by at most 15 u^2 (|a b| + |c d|), |lo| at most 4 u of that.
@@ -45,13 +39,7 @@ fn combine(a: Pair, b: f64, c: Pair, d: f64) -> (Pair, f64) {
     let ((p, p_tail), (q, q_tail)) = (two_product(a.hi, b), two_product(c.hi, d));
     let (hi, tail) = two_sum(p, q);
     let (p_low, q_low) = (p_tail + a.lo * b, q_tail + c.lo * d);
-    (
-        Pair {
-            hi,
-            lo: tail + (p_low + q_low),
-        },
-        p.abs() + q.abs(),
-    )
+    (Pair { hi, lo: tail + (p_low + q_low) }, p.abs() + q.abs())
 }
 
 /// base + n/(2 d) rounded, if certain; `n_size` and `d_size` are the sums of magnitudes that the bounds of n and d refer to.
@@ -142,10 +130,7 @@ pub(super) fn offcenter(p: Point2, q: Point2, kappa: f64) -> Option<Point2> {
         let (hi, tail) = two_sum(s, t);
         certified(hi, tail + (s_tail + t_tail), 5.0 * U2 * (s.abs() + t.abs()))
     };
-    Some(Point2::new(
-        0.5 * half(p.x, q.x, -y)?,
-        0.5 * half(p.y, q.y, x)?,
-    ))
+    Some(Point2::new(0.5 * half(p.x, q.x, -y)?, 0.5 * half(p.y, q.y, x)?))
 }
 
 /// The circumcenter of t, each coordinate rounded once, before the range rule; `None` if this evaluation cannot tell.

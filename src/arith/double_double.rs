@@ -61,11 +61,7 @@ pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
 }
 
 impl DoubleDouble {
-    const UNKNOWN: DoubleDouble = DoubleDouble {
-        hi: 0.0,
-        lo: 0.0,
-        err: f64::INFINITY,
-    };
+    const UNKNOWN: DoubleDouble = DoubleDouble { hi: 0.0, lo: 0.0, err: f64::INFINITY };
 
     /// The sign, if the bound allows to tell it.
     #[inline]
@@ -102,15 +98,10 @@ impl DoubleDouble {
     pub fn over(self, d: &DoubleDouble) -> DoubleDouble {
         let safe = |x: f64| (1e-270..1e290).contains(&x.abs());
         if self.hi == 0.0 && self.err == 0.0 && d.hi.abs() > d.err * SLACK {
-            return DoubleDouble {
-                hi: 0.0,
-                lo: 0.0,
-                err: 0.0,
-            };
+            return DoubleDouble { hi: 0.0, lo: 0.0, err: 0.0 };
         }
         let q = self.hi / d.hi;
-        if !(safe(self.hi) && safe(d.hi) && safe(q) && q.abs() > 1e-250 && d.err < d.hi.abs() / 4.0)
-        {
+        if !(safe(self.hi) && safe(d.hi) && safe(q) && q.abs() > 1e-250 && d.err < d.hi.abs() / 4.0) {
             return DoubleDouble::UNKNOWN;
         }
         let (ch, cl) = two_product(d.hi, q);
@@ -120,11 +111,7 @@ impl DoubleDouble {
         let (hi, lo) = fast_two_sum(q, residual / d.hi);
         let exact = d.lo == 0.0 && self.hi == ch && self.lo == cl;
         let own = if exact { 0.0 } else { 20.0 * U2 * q.abs() };
-        DoubleDouble {
-            hi,
-            lo,
-            err: own + (self.err + q.abs() * d.err) / (d.hi.abs() - d.err),
-        }
+        DoubleDouble { hi, lo, err: own + (self.err + q.abs() * d.err) / (d.hi.abs() - d.err) }
     }
 
     /// The square root of a value that is not negative; nothing is known of it near 0.
@@ -145,31 +132,19 @@ impl DoubleDouble {
         let (hi, lo) = fast_two_sum(s, residual / (2.0 * s));
         let exact = self.hi == ph && self.lo == pl;
         let own = if exact { 0.0 } else { 16.0 * U2 * s };
-        DoubleDouble {
-            hi,
-            lo,
-            err: own + self.err / (1.7 * s),
-        }
+        DoubleDouble { hi, lo, err: own + self.err / (1.7 * s) }
     }
 
     #[inline]
     fn negated(self) -> DoubleDouble {
-        DoubleDouble {
-            hi: -self.hi,
-            lo: -self.lo,
-            err: self.err,
-        }
+        DoubleDouble { hi: -self.hi, lo: -self.lo, err: self.err }
     }
 }
 
 impl Ring for DoubleDouble {
     #[inline]
     fn of(x: f64) -> DoubleDouble {
-        DoubleDouble {
-            hi: x,
-            lo: 0.0,
-            err: 0.0,
-        }
+        DoubleDouble { hi: x, lo: 0.0, err: 0.0 }
     }
     #[inline]
     fn difference(a: f64, b: f64) -> DoubleDouble {
@@ -185,16 +160,8 @@ impl Ring for DoubleDouble {
         let (vh, vl) = fast_two_sum(sh, c);
         let (w, w_error) = two_sum(tl, vl);
         let (hi, lo) = fast_two_sum(vh, w);
-        let own = if c_error == 0.0 && w_error == 0.0 {
-            0.0
-        } else {
-            4.0 * U2 * hi.abs()
-        };
-        DoubleDouble {
-            hi,
-            lo,
-            err: self.err + other.err + own,
-        }
+        let own = if c_error == 0.0 && w_error == 0.0 { 0.0 } else { 4.0 * U2 * hi.abs() };
+        DoubleDouble { hi, lo, err: self.err + other.err + own }
     }
     #[inline]
     fn minus(&self, other: &DoubleDouble) -> DoubleDouble {
@@ -212,25 +179,16 @@ impl Ring for DoubleDouble {
         let safe = certain && (hi.abs() > SAFE_PRODUCT || a.hi == 0.0 || b.hi == 0.0);
         let underflow = if safe { 0.0 } else { TINY };
         let inherited = a.hi.abs() * b.err + (b.hi.abs() + b.err) * a.err;
-        DoubleDouble {
-            hi,
-            lo,
-            err: inherited + own + underflow,
-        }
+        DoubleDouble { hi, lo, err: inherited + own + underflow }
     }
     #[inline]
     fn doubled(&self) -> DoubleDouble {
-        DoubleDouble {
-            hi: 2.0 * self.hi,
-            lo: 2.0 * self.lo,
-            err: 2.0 * self.err,
-        }
+        DoubleDouble { hi: 2.0 * self.hi, lo: 2.0 * self.lo, err: 2.0 * self.err }
     }
     /// Order statistics move by at most the largest error of the values they are taken of.
     #[inline]
     fn two_largest(v: [DoubleDouble; 3]) -> (DoubleDouble, DoubleDouble) {
-        let above =
-            |a: &DoubleDouble, b: &DoubleDouble| a.hi > b.hi || (a.hi == b.hi && a.lo > b.lo);
+        let above = |a: &DoubleDouble, b: &DoubleDouble| a.hi > b.hi || (a.hi == b.hi && a.lo > b.lo);
         let [mut a, mut b, mut c] = v;
         if above(&a, &b) {
             std::mem::swap(&mut a, &mut b);

@@ -24,28 +24,18 @@ impl Dyadic {
         let bits = x.to_bits();
         let field = ((bits >> 52) & 0x7ff) as i64;
         let fraction = bits & ((1 << 52) - 1);
-        let (m, e) = if field == 0 {
-            (fraction, -1074)
-        } else {
-            (fraction | 1 << 52, field - 1075)
-        };
+        let (m, e) = if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
         if m == 0 {
             return Some(Dyadic::integer(0));
         }
         let zeros = m.trailing_zeros();
         let m = (m >> zeros) as i64;
-        Some(Dyadic {
-            mantissa: IBig::from(if x < 0.0 { -m } else { m }),
-            exponent: e + i64::from(zeros),
-        })
+        Some(Dyadic { mantissa: IBig::from(if x < 0.0 { -m } else { m }), exponent: e + i64::from(zeros) })
     }
 
     /// A small integer.
     pub fn integer(n: i64) -> Dyadic {
-        Dyadic {
-            mantissa: IBig::from(n),
-            exponent: 0,
-        }
+        Dyadic { mantissa: IBig::from(n), exponent: 0 }
     }
 
     /// The sign of the value.
@@ -60,10 +50,7 @@ impl Dyadic {
     /// The value times 2^k.
     #[must_use]
     pub fn scaled(&self, k: i64) -> Dyadic {
-        Dyadic {
-            mantissa: self.mantissa.clone(),
-            exponent: self.exponent + k,
-        }
+        Dyadic { mantissa: self.mantissa.clone(), exponent: self.exponent + k }
     }
 
     /// The value is m 2^e with the m and e returned.
@@ -88,10 +75,7 @@ impl Dyadic {
             return None;
         }
         let root = floor_sqrt(&odd);
-        (&root * &root == odd).then(|| Dyadic {
-            mantissa: IBig::from(root),
-            exponent: e / 2,
-        })
+        (&root * &root == odd).then(|| Dyadic { mantissa: IBig::from(root), exponent: e / 2 })
     }
 }
 
@@ -104,23 +88,14 @@ pub(super) fn floor_sqrt(n: &UBig) -> UBig {
 /// Both mantissas brought to the smaller exponent, then combined.
 fn aligned(a: &Dyadic, b: &Dyadic, combine: impl FnOnce(&IBig, &IBig) -> IBig) -> Dyadic {
     match a.exponent.cmp(&b.exponent) {
-        Ordering::Equal => Dyadic {
-            mantissa: combine(&a.mantissa, &b.mantissa),
-            exponent: a.exponent,
-        },
+        Ordering::Equal => Dyadic { mantissa: combine(&a.mantissa, &b.mantissa), exponent: a.exponent },
         Ordering::Greater => {
             let shifted = &a.mantissa << (a.exponent - b.exponent) as usize;
-            Dyadic {
-                mantissa: combine(&shifted, &b.mantissa),
-                exponent: b.exponent,
-            }
+            Dyadic { mantissa: combine(&shifted, &b.mantissa), exponent: b.exponent }
         }
         Ordering::Less => {
             let shifted = &b.mantissa << (b.exponent - a.exponent) as usize;
-            Dyadic {
-                mantissa: combine(&a.mantissa, &shifted),
-                exponent: a.exponent,
-            }
+            Dyadic { mantissa: combine(&a.mantissa, &shifted), exponent: a.exponent }
         }
     }
 }
@@ -142,20 +117,14 @@ impl Sub for &Dyadic {
 impl Mul for &Dyadic {
     type Output = Dyadic;
     fn mul(self, other: &Dyadic) -> Dyadic {
-        Dyadic {
-            mantissa: &self.mantissa * &other.mantissa,
-            exponent: self.exponent + other.exponent,
-        }
+        Dyadic { mantissa: &self.mantissa * &other.mantissa, exponent: self.exponent + other.exponent }
     }
 }
 
 impl Neg for &Dyadic {
     type Output = Dyadic;
     fn neg(self) -> Dyadic {
-        Dyadic {
-            mantissa: -&self.mantissa,
-            exponent: self.exponent,
-        }
+        Dyadic { mantissa: -&self.mantissa, exponent: self.exponent }
     }
 }
 

@@ -31,10 +31,7 @@ struct Exact2 {
 
 impl From<Point2> for Exact2 {
     fn from(p: Point2) -> Exact2 {
-        Exact2 {
-            x: rational(p.x),
-            y: rational(p.y),
-        }
+        Exact2 { x: rational(p.x), y: rational(p.y) }
     }
 }
 
@@ -46,39 +43,24 @@ impl Exact2 {
         (&self.x - &other.x).complete().square() + (&self.y - &other.y).complete().square()
     }
     fn minus(&self, other: &Exact2) -> Exact2 {
-        Exact2 {
-            x: (&self.x - &other.x).complete(),
-            y: (&self.y - &other.y).complete(),
-        }
+        Exact2 { x: (&self.x - &other.x).complete(), y: (&self.y - &other.y).complete() }
     }
     /// self + s (direction).
     fn moved(&self, s: &Rational, direction: &Exact2) -> Exact2 {
-        Exact2 {
-            x: (s * &direction.x).complete() + &self.x,
-            y: (s * &direction.y).complete() + &self.y,
-        }
+        Exact2 { x: (s * &direction.x).complete() + &self.x, y: (s * &direction.y).complete() + &self.y }
     }
     fn dot(&self, other: &Exact2) -> Rational {
         (&self.x * &other.x).complete() + (&self.y * &other.y).complete()
     }
     /// Turned by 90 degrees counterclockwise.
     fn rot90(&self) -> Exact2 {
-        Exact2 {
-            x: (-&self.y).complete(),
-            y: self.x.clone(),
-        }
+        Exact2 { x: (-&self.y).complete(), y: self.x.clone() }
     }
     fn midpoint(&self, other: &Exact2) -> Exact2 {
-        Exact2 {
-            x: (&self.x + &other.x).complete() / 2u32,
-            y: (&self.y + &other.y).complete() / 2u32,
-        }
+        Exact2 { x: (&self.x + &other.x).complete() / 2u32, y: (&self.y + &other.y).complete() / 2u32 }
     }
     fn rounded(&self) -> Result<Point2, OutOfRange> {
-        Ok(Point2::new(
-            coordinate(round(&self.x))?,
-            coordinate(round(&self.y))?,
-        ))
+        Ok(Point2::new(coordinate(round(&self.x))?, coordinate(round(&self.y))?))
     }
 }
 
@@ -135,11 +117,7 @@ fn over_common_power<const N: usize>(points: [Point2; N]) -> [Integer2; N] {
     let parts = |x: f64| {
         let field = ((x.to_bits() >> 52) & 0x7ff) as u32;
         let fraction = x.to_bits() & ((1 << 52) - 1);
-        let m = if field == 0 {
-            fraction
-        } else {
-            fraction | 1 << 52
-        } as i64;
+        let m = if field == 0 { fraction } else { fraction | 1 << 52 } as i64;
         (if x < 0.0 { -m } else { m }, field.max(1))
     };
     let coordinates = points.iter().flat_map(|p| [p.x, p.y]);
@@ -149,10 +127,7 @@ fn over_common_power<const N: usize>(points: [Point2; N]) -> [Integer2; N] {
         let (m, e) = parts(x);
         Integer::from(m) << e.saturating_sub(finest)
     };
-    points.map(|p| Integer2 {
-        x: integer(p.x),
-        y: integer(p.y),
-    })
+    points.map(|p| Integer2 { x: integer(p.x), y: integer(p.y) })
 }
 
 impl Integer2 {
@@ -163,10 +138,7 @@ impl Integer2 {
         (&self.x - &other.x).complete().square() + (&self.y - &other.y).complete().square()
     }
     fn scaled(&self, w: &Integer) -> Integer2 {
-        Integer2 {
-            x: (&self.x * w).complete(),
-            y: (&self.y * w).complete(),
-        }
+        Integer2 { x: (&self.x * w).complete(), y: (&self.y * w).complete() }
     }
 }
 
@@ -195,14 +167,8 @@ fn ratio2(t: Corners) -> Option<Rational> {
     if w.cmp0() == Ordering::Equal {
         return None;
     }
-    let shortest = t[0]
-        .dist2(&t[1])
-        .min(t[1].dist2(&t[2]))
-        .min(t[2].dist2(&t[0]));
-    Some(Rational::from((
-        t[0].scaled(&w).dist2(&o),
-        shortest * w.square(),
-    )))
+    let shortest = t[0].dist2(&t[1]).min(t[1].dist2(&t[2])).min(t[2].dist2(&t[0]));
+    Some(Rational::from((t[0].scaled(&w).dist2(&o), shortest * w.square())))
 }
 
 /// r^2/h^2; `None` (infinite) if the corners are collinear.
@@ -248,11 +214,8 @@ fn round(q: &Rational) -> f64 {
     let magnitude = n.as_abs();
     // 2^e <= |q| < 2^(e+1).
     let mut e = i64::from(magnitude.significant_bits()) - i64::from(d.significant_bits());
-    let (shifted_n, shifted_d) = if e >= 0 {
-        (Integer::from(&*magnitude), shifted(d, e))
-    } else {
-        (shifted(&magnitude, -e), d.clone())
-    };
+    let (shifted_n, shifted_d) =
+        if e >= 0 { (Integer::from(&*magnitude), shifted(d, e)) } else { (shifted(&magnitude, -e), d.clone()) };
     if shifted_n < shifted_d {
         e -= 1;
     }
@@ -263,11 +226,7 @@ fn round(q: &Rational) -> f64 {
     } else {
         round_in_binade(&magnitude, d, e)
     };
-    if n.cmp0() == Ordering::Less {
-        -value
-    } else {
-        value
-    }
+    if n.cmp0() == Ordering::Less { -value } else { value }
 }
 
 fn shifted(n: &Integer, by: i64) -> Integer {
@@ -277,11 +236,8 @@ fn shifted(n: &Integer, by: i64) -> Integer {
 /// n/d rounded, where 2^e <= n/d < 2^(e+1) and e is an exponent of an f64 or just below.
 fn round_in_binade(n: &Integer, d: &Integer, e: i64) -> f64 {
     let last_place = (e - 52).max(-1074);
-    let (num, den) = if last_place >= 0 {
-        (n.clone(), shifted(d, last_place))
-    } else {
-        (shifted(n, -last_place), d.clone())
-    };
+    let (num, den) =
+        if last_place >= 0 { (n.clone(), shifted(d, last_place)) } else { (shifted(n, -last_place), d.clone()) };
     let (mut m, rest) = num.div_rem(den.clone());
     match (rest << 1u32).cmp(&den) {
         Ordering::Greater => m += 1,
@@ -292,11 +248,7 @@ fn round_in_binade(n: &Integer, d: &Integer, e: i64) -> f64 {
     let m = m.to_u64().expect("at most 2^53");
     // As the exponent field counts from the subnormals up, a carry into it is right by itself.
     let field = (last_place + 1074) as u64;
-    if field == 0 {
-        f64::from_bits(m)
-    } else {
-        f64::from_bits((field << 52) + m)
-    }
+    if field == 0 { f64::from_bits(m) } else { f64::from_bits((field << 52) + m) }
 }
 
 /// p + q sqrt(radicand) rounded once; the radicand is not negative.
@@ -304,9 +256,7 @@ fn round_root(p: &Rational, q: &Rational, radicand: &Rational) -> f64 {
     // sqrt(n/d) = sqrt(n d)/d; rational iff n d is a square.
     let (n, d) = (radicand.numer(), radicand.denom());
     let product = (n * d).complete();
-    let at = |root: Integer, bits: u32| {
-        round(&(Rational::from((root, shifted(d, i64::from(bits)))) * q + p))
-    };
+    let at = |root: Integer, bits: u32| round(&(Rational::from((root, shifted(d, i64::from(bits)))) * q + p));
     if product.is_perfect_square() {
         return at(product.sqrt(), 0);
     }
@@ -326,14 +276,8 @@ fn round_root(p: &Rational, q: &Rational, radicand: &Rational) -> f64 {
 }
 
 /// p + s v for a vector v and an irrational (or not) s = factor sqrt(radicand), rounded.
-fn round_along(
-    p: &Exact2,
-    factor: &Rational,
-    v: &Exact2,
-    radicand: &Rational,
-) -> Result<Point2, OutOfRange> {
-    let one =
-        |p: &Rational, v: &Rational| coordinate(round_root(p, &(factor * v).complete(), radicand));
+fn round_along(p: &Exact2, factor: &Rational, v: &Exact2, radicand: &Rational) -> Result<Point2, OutOfRange> {
+    let one = |p: &Rational, v: &Rational| coordinate(round_root(p, &(factor * v).complete(), radicand));
     Ok(Point2::new(one(&p.x, &v.x)?, one(&p.y, &v.y)?))
 }
 
@@ -355,11 +299,7 @@ fn off_center([p, q, c]: &[Exact2; 3], kappa: f64) -> Result<OffCenter, OutOfRan
     let reach2 = kappa.clone().square() * up.norm2();
     let same_side = center.minus(&middle).dot(&up).cmp0() == Ordering::Greater;
     if same_side && center.dist2(&middle) > reach2 {
-        Ok(OffCenter::Nearer {
-            point: middle.moved(&kappa, &up),
-            middle,
-            center,
-        })
+        Ok(OffCenter::Nearer { point: middle.moved(&kappa, &up), middle, center })
     } else {
         Ok(OffCenter::Circumcenter(center))
     }
@@ -382,31 +322,20 @@ impl Kernel for ExactKernel {
     fn in_diametral_circle(u: Point2, v: Point2, w: Point2) -> Sign {
         let [u, v, w] = over_common_power([u, v, w]);
         // Twice the center and twice w, against the diameter.
-        let center = Integer2 {
-            x: (&u.x + &v.x).complete(),
-            y: (&u.y + &v.y).complete(),
-        };
+        let center = Integer2 { x: (&u.x + &v.x).complete(), y: (&u.y + &v.y).complete() };
         sign(u.dist2(&v).cmp(&center.dist2(&w.scaled(&Integer::from(2)))))
     }
 
     fn walk_side([a, b, c]: Corners, q: Point2, w: Point2) -> Sign {
         let [a, b, c, q, w] = over_common_power([a, b, c, q, w]);
         // Three times the centroid, and everything else three times as large.
-        let centroid = Integer2 {
-            x: a.x + b.x + c.x,
-            y: a.y + b.y + c.y,
-        };
+        let centroid = Integer2 { x: a.x + b.x + c.x, y: a.y + b.y + c.y };
         let three = Integer::from(3);
         sign(integer_cross(&centroid, &q.scaled(&three), &w.scaled(&three)).cmp0())
     }
 
     fn edge_meets_diametral_disk(u: Point2, v: Point2, a: Point2, b: Point2) -> bool {
-        let (u, v, a, b) = (
-            Exact2::from(u),
-            Exact2::from(v),
-            Exact2::from(a),
-            Exact2::from(b),
-        );
+        let (u, v, a, b) = (Exact2::from(u), Exact2::from(v), Exact2::from(a), Exact2::from(b));
         let (center, radius2) = (u.midpoint(&v), u.dist2(&v) / 4u32);
         let d = b.minus(&a);
         let length2 = d.norm2();
@@ -418,9 +347,7 @@ impl Kernel for ExactKernel {
     }
 
     fn compare_lengths(a: Point2, b: Point2, c: Point2, d: Point2) -> Ordering {
-        Exact2::from(a)
-            .dist2(&b.into())
-            .cmp(&Exact2::from(c).dist2(&d.into()))
+        Exact2::from(a).dist2(&b.into()).cmp(&Exact2::from(c).dist2(&d.into()))
     }
 
     fn compare_ratio(t1: Corners, t2: Corners) -> Ordering {
@@ -463,11 +390,7 @@ impl Kernel for ExactKernel {
         let (u2, v2) = (apex.dist2(&p), apex.dist2(&q));
         // Law of cosines.
         let dot = ((&u2 + &v2).complete() - p.dist2(&q)) / 2u32;
-        if dot.cmp0() == Ordering::Greater {
-            (dot.square() / u2 / v2).cmp(&rational(bound))
-        } else {
-            Ordering::Less
-        }
+        if dot.cmp0() == Ordering::Greater { (dot.square() / u2 / v2).cmp(&rational(bound)) } else { Ordering::Less }
     }
 
     fn shell_exponent(u: Point2, v: Point2) -> i32 {
@@ -503,28 +426,21 @@ impl Kernel for ExactKernel {
 
     fn midpoint(a: Point2, b: Point2) -> Point2 {
         // A midpoint of points in range is in range.
-        Exact2::from(a)
-            .midpoint(&b.into())
-            .rounded()
-            .expect("between its ends")
+        Exact2::from(a).midpoint(&b.into()).rounded().expect("between its ends")
     }
 
     fn in_interval(a: Point2, b: Point2, delta: f64, x: f64) -> Point2 {
         let (a, b) = (Exact2::from(a), Exact2::from(b));
         let s = rational(x) * (1 - rational(delta)) / 2u32;
         // A point between points in range is in range.
-        a.midpoint(&b)
-            .moved(&s, &b.minus(&a))
-            .rounded()
-            .expect("between its ends")
+        a.midpoint(&b).moved(&s, &b.minus(&a)).rounded().expect("between its ends")
     }
 
     fn at_distance(a: Point2, b: Point2, k: i32) -> Point2 {
         let (a, b) = (Exact2::from(a), Exact2::from(b));
         let d = b.minus(&a);
         // The step is at most the length of ab, so the point lies between points in range.
-        round_along(&a, &Rational::from(2).pow(k), &d, &d.norm2().recip())
-            .expect("between its ends")
+        round_along(&a, &Rational::from(2).pow(k), &d, &d.norm2().recip()).expect("between its ends")
     }
 
     fn circumcenter(t: Corners) -> Result<Point2, OutOfRange> {
@@ -535,12 +451,9 @@ impl Kernel for ExactKernel {
         let t = exact(t);
         let o = center(&t).ok_or(OutOfRange)?;
         let (shrink, to_corner) = (1 - rational(d2), t[0].minus(&o));
-        let direction = Exact2 {
-            x: Rational::new(),
-            y: Rational::new(),
-        }
-        .moved(&rational(x), &to_corner)
-        .moved(&rational(y), &to_corner.rot90());
+        let direction = Exact2 { x: Rational::new(), y: Rational::new() }
+            .moved(&rational(x), &to_corner)
+            .moved(&rational(y), &to_corner.rot90());
         o.moved(&shrink, &direction).rounded()
     }
 
@@ -555,22 +468,13 @@ impl Kernel for ExactKernel {
         let t = exact(t);
         match off_center(&t, kappa)? {
             OffCenter::Circumcenter(o) => o.rounded(),
-            OffCenter::Nearer {
-                point,
-                middle,
-                center,
-            } => {
+            OffCenter::Nearer { point, middle, center } => {
                 let radius2 = center.dist2(&t[0]);
                 if point.dist2(&center) <= shrunk2(d2) * &radius2 {
                     return point.rounded();
                 }
                 let inward = middle.minus(&center);
-                round_along(
-                    &center,
-                    &(1 - rational(d2)),
-                    &inward,
-                    &(radius2 / inward.norm2()),
-                )
+                round_along(&center, &(1 - rational(d2)), &inward, &(radius2 / inward.norm2()))
             }
         }
     }

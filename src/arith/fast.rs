@@ -107,14 +107,12 @@ fn both(x: Option<f64>, y: Option<f64>) -> Option<Point2> {
 
 #[inline]
 fn center_in_double_double(base: Point2, c: &Center<DoubleDouble>) -> Option<Point2> {
-    let rounded =
-        |base: f64, n: DoubleDouble| n.over(&c.den).plus(&DoubleDouble::of(base)).rounded();
+    let rounded = |base: f64, n: DoubleDouble| n.over(&c.den).plus(&DoubleDouble::of(base)).rounded();
     both(rounded(base.x, c.offset.x), rounded(base.y, c.offset.y))
 }
 
 fn center_exactly(base: Point2, c: &Center<Dyadic>) -> Point2 {
-    let rounded =
-        |base: f64, n: &Dyadic| round::ratio(&(&(&Dyadic::of(base) * &c.den) + n), &c.den);
+    let rounded = |base: f64, n: &Dyadic| round::ratio(&(&(&Dyadic::of(base) * &c.den) + n), &c.den);
     Point2::new(rounded(base.x, &c.offset.x), rounded(base.y, &c.offset.y))
 }
 
@@ -130,19 +128,13 @@ fn root_exactly(base: Point2, r: &Rooted<Dyadic>) -> Point2 {
         let p = &(&Dyadic::of(base) * &r.den) + p;
         round::root(&p, q, &r.radicand, &r.den)
     };
-    Point2::new(
-        rounded(base.x, &r.p.x, &r.q.x),
-        rounded(base.y, &r.p.y, &r.q.y),
-    )
+    Point2::new(rounded(base.x, &r.p.x, &r.q.x), rounded(base.y, &r.p.y, &r.q.y))
 }
 
 /// The range rule on both coordinates.
 #[inline]
 fn in_range(p: Point2) -> Result<Point2, OutOfRange> {
-    Ok(Point2::new(
-        round::coordinate(p.x)?,
-        round::coordinate(p.y)?,
-    ))
+    Ok(Point2::new(round::coordinate(p.x)?, round::coordinate(p.y)?))
 }
 
 /// The range rule where the result lies between points in range.
@@ -183,8 +175,8 @@ impl Kernel for FastKernel {
     }
 
     fn edge_meets_diametral_disk(u: Point2, v: Point2, a: Point2, b: Point2) -> bool {
-        let end_inside = Self::in_diametral_circle(u, v, a).is_positive()
-            || Self::in_diametral_circle(u, v, b).is_positive();
+        let end_inside =
+            Self::in_diametral_circle(u, v, a).is_positive() || Self::in_diametral_circle(u, v, b).is_positive();
         end_inside
             || (sign_of!(foot_after_start(u, v, a, b)).is_positive()
                 && sign_of!(foot_before_end(u, v, a, b)).is_positive()
@@ -216,8 +208,7 @@ impl Kernel for FastKernel {
 
     #[inline]
     fn is_skinny(t: Corners, rho2: f64) -> bool {
-        filter::is_skinny(t, rho2)
-            .unwrap_or_else(|| !sign_without_filter!(skinny(t, rho2)).is_negative())
+        filter::is_skinny(t, rho2).unwrap_or_else(|| !sign_without_filter!(skinny(t, rho2)).is_negative())
     }
 
     #[inline]
@@ -238,11 +229,7 @@ impl Kernel for FastKernel {
     }
 
     fn compare_cos2(apex: Point2, p: Point2, q: Point2, bound: f64) -> Ordering {
-        if sign_of!(dot(apex, p, q)).is_positive() {
-            order(sign_of!(cos2(apex, p, q, bound)))
-        } else {
-            Ordering::Less
-        }
+        if sign_of!(dot(apex, p, q)).is_positive() { order(sign_of!(cos2(apex, p, q, bound))) } else { Ordering::Less }
     }
 
     fn shell_exponent(u: Point2, v: Point2) -> i32 {
@@ -268,9 +255,7 @@ impl Kernel for FastKernel {
     fn length2(a: Point2, b: Point2) -> f64 {
         construct::length2(a, b)
             .or_else(|| poly::length2::<DoubleDouble>(a, b).rounded())
-            .unwrap_or_else(|| {
-                rarely(|| round::ratio(&poly::length2::<Dyadic>(a, b), &Dyadic::integer(1)))
-            })
+            .unwrap_or_else(|| rarely(|| round::ratio(&poly::length2::<Dyadic>(a, b), &Dyadic::integer(1))))
     }
 
     fn ratio2(t: Corners) -> f64 {
@@ -301,9 +286,7 @@ impl Kernel for FastKernel {
     }
 
     fn circumcenter(t: Corners) -> Result<Point2, OutOfRange> {
-        in_range(
-            construct::circumcenter(t).unwrap_or_else(|| rounded_center!(t[0], circumcenter(t))),
-        )
+        in_range(construct::circumcenter(t).unwrap_or_else(|| rounded_center!(t[0], circumcenter(t))))
     }
 
     fn in_disk(t: Corners, d2: f64, x: f64, y: f64) -> Result<Point2, OutOfRange> {

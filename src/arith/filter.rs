@@ -47,42 +47,27 @@ impl Ring for Bounded {
     #[inline]
     fn difference(a: f64, b: f64) -> Bounded {
         let value = a - b;
-        Bounded {
-            value,
-            err: U * value.abs(),
-        }
+        Bounded { value, err: U * value.abs() }
     }
     #[inline]
     fn plus(&self, other: &Bounded) -> Bounded {
         let value = self.value + other.value;
-        Bounded {
-            value,
-            err: self.err + other.err + U * value.abs(),
-        }
+        Bounded { value, err: self.err + other.err + U * value.abs() }
     }
     #[inline]
     fn minus(&self, other: &Bounded) -> Bounded {
         let value = self.value - other.value;
-        Bounded {
-            value,
-            err: self.err + other.err + U * value.abs(),
-        }
+        Bounded { value, err: self.err + other.err + U * value.abs() }
     }
     #[inline]
     fn times(&self, other: &Bounded) -> Bounded {
         let value = self.value * other.value;
         let inherited = self.value.abs() * other.err + (other.value.abs() + other.err) * self.err;
-        Bounded {
-            value,
-            err: inherited + U * value.abs() + TINY,
-        }
+        Bounded { value, err: inherited + U * value.abs() + TINY }
     }
     #[inline]
     fn doubled(&self) -> Bounded {
-        Bounded {
-            value: 2.0 * self.value,
-            err: 2.0 * self.err,
-        }
+        Bounded { value: 2.0 * self.value, err: 2.0 * self.err }
     }
     /// Order statistics move by at most the largest error of the values they are taken of.
     #[inline]
@@ -118,14 +103,7 @@ pub(super) fn orient2d(a: Point2, b: Point2, c: Point2) -> Option<Sign> {
 #[inline]
 pub(super) fn in_circle([a, b, c]: Corners, q: Point2) -> Option<Sign> {
     const BOUND: f64 = 1.25e-15;
-    let (ax, ay, bx, by, cx, cy) = (
-        a.x - q.x,
-        a.y - q.y,
-        b.x - q.x,
-        b.y - q.y,
-        c.x - q.x,
-        c.y - q.y,
-    );
+    let (ax, ay, bx, by, cx, cy) = (a.x - q.x, a.y - q.y, b.x - q.x, b.y - q.y, c.x - q.x, c.y - q.y);
     let (la, lb, lc) = (ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy);
     let det = la * (bx * cy - by * cx) + lb * (cx * ay - cy * ax) + lc * (ax * by - ay * bx);
     sign_beyond(det, BOUND * (la * (lb + lc) + lb * lc))
@@ -144,10 +122,7 @@ pub(super) fn walk_side([a, b, c]: Corners, q: Point2, w: Point2) -> Option<Sign
     };
     let ((qx, qx_size), (qy, qy_size)) = (sum(q.x, a.x, b.x, c.x), sum(q.y, a.y, b.y, c.y));
     let ((wx, wx_size), (wy, wy_size)) = (sum(w.x, a.x, b.x, c.x), sum(w.y, a.y, b.y, c.y));
-    sign_beyond(
-        qx * wy - qy * wx,
-        BOUND * (qx_size * wy_size + qy_size * wx_size),
-    )
+    sign_beyond(qx * wy - qy * wx, BOUND * (qx_size * wy_size + qy_size * wx_size))
 }
 
 /// Position of q against the circle of t by integers of 128 bits, where the differences to q are exact and multiples of
@@ -204,14 +179,7 @@ pub(super) fn in_circle_on_grid([a, b, c]: Corners, q: Point2) -> Option<Sign> {
 /// What overflows to infinity is larger than m2 n2 <= 2^806.
 #[inline]
 pub(super) fn is_skinny([a, b, c]: Corners, rho2: f64) -> Option<bool> {
-    let (ex, ey, fx, fy, gx, gy) = (
-        b.x - a.x,
-        b.y - a.y,
-        c.x - a.x,
-        c.y - a.y,
-        c.x - b.x,
-        c.y - b.y,
-    );
+    let (ex, ey, fx, fy, gx, gy) = (b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y, c.x - b.x, c.y - b.y);
     let (k, l, m) = (ex * ex + ey * ey, fx * fx + fy * fy, gx * gx + gy * gy);
     let longest2 = (k * l).max(l * m).max(m * k);
     let (left, right) = (ex * fy, ey * fx);

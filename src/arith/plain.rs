@@ -15,20 +15,14 @@ pub struct PlainKernel;
 
 /// The range rule, so that the control fails by its roundings alone.
 fn in_range(p: Point2) -> Result<Point2, OutOfRange> {
-    Ok(Point2::new(
-        round::coordinate(p.x)?,
-        round::coordinate(p.y)?,
-    ))
+    Ok(Point2::new(round::coordinate(p.x)?, round::coordinate(p.y)?))
 }
 
 fn center([a, b, c]: Corners) -> Point2 {
     let (e, f) = (b - a, c - a);
     let (e2, f2) = (e.x * e.x + e.y * e.y, f.x * f.x + f.y * f.y);
     let den = 2.0 * (e.x * f.y - e.y * f.x);
-    Point2::new(
-        a.x + (e2 * f.y - f2 * e.y) / den,
-        a.y + (f2 * e.x - e2 * f.x) / den,
-    )
+    Point2::new(a.x + (e2 * f.y - f2 * e.y) / den, a.y + (f2 * e.x - e2 * f.x) / den)
 }
 
 impl Kernel for PlainKernel {
@@ -116,10 +110,7 @@ impl Kernel for PlainKernel {
     fn in_disk(t: Corners, d2: f64, x: f64, y: f64) -> Result<Point2, OutOfRange> {
         let (o, s) = (center(t), 1.0 - d2);
         let f = t[0] - o;
-        in_range(Point2::new(
-            o.x + s * (x * f.x - y * f.y),
-            o.y + s * (x * f.y + y * f.x),
-        ))
+        in_range(Point2::new(o.x + s * (x * f.x - y * f.y), o.y + s * (x * f.y + y * f.x)))
     }
 
     fn offcenter(t: Corners, kappa: f64) -> Result<Point2, OutOfRange> {
@@ -128,20 +119,15 @@ impl Kernel for PlainKernel {
         if f.x * g.x + f.y * g.y <= 2.0 * kappa * (f.x * g.y - f.y * g.x) {
             return Self::circumcenter(t);
         }
-        in_range(Point2::new(
-            0.5 * (p.x + q.x) - kappa * (q.y - p.y),
-            0.5 * (p.y + q.y) + kappa * (q.x - p.x),
-        ))
+        in_range(Point2::new(0.5 * (p.x + q.x) - kappa * (q.y - p.y), 0.5 * (p.y + q.y) + kappa * (q.x - p.x)))
     }
 
     fn clamped_offcenter(t: Corners, kappa: f64, d2: f64) -> Result<Point2, OutOfRange> {
         let a = Self::offcenter(t, kappa)?;
         let o = center(t);
         let (from_o, radius) = (a - o, t[0] - o);
-        let (d, r) = (
-            (from_o.x * from_o.x + from_o.y * from_o.y).sqrt(),
-            (radius.x * radius.x + radius.y * radius.y).sqrt(),
-        );
+        let (d, r) =
+            ((from_o.x * from_o.x + from_o.y * from_o.y).sqrt(), (radius.x * radius.x + radius.y * radius.y).sqrt());
         if d <= (1.0 - d2) * r {
             return Ok(a);
         }

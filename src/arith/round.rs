@@ -19,21 +19,13 @@ pub(super) const LARGEST: f64 = f64::from_bits((1023 + 200) << 52);
 /// The range rule of a constructed coordinate: 0 below 2^-142, never -0, `OutOfRange` beyond 2^200.
 #[inline]
 pub(super) fn coordinate(rounded: f64) -> Result<f64, OutOfRange> {
-    if rounded.abs() <= LARGEST {
-        Ok(flushed(rounded))
-    } else {
-        Err(OutOfRange)
-    }
+    if rounded.abs() <= LARGEST { Ok(flushed(rounded)) } else { Err(OutOfRange) }
 }
 
 /// 0 below 2^-142, never -0.
 #[inline]
 pub(super) fn flushed(rounded: f64) -> f64 {
-    if rounded.abs() < FLUSH_BELOW {
-        0.0
-    } else {
-        rounded
-    }
+    if rounded.abs() < FLUSH_BELOW { 0.0 } else { rounded }
 }
 
 /// num/den to nearest; infinite beyond the largest f64 and where den is 0.
@@ -44,20 +36,12 @@ pub(super) fn ratio(num: &Dyadic, den: &Dyadic) -> f64 {
         return 0.0;
     }
     if den.sign() == Sign::Zero {
-        return if negative {
-            f64::NEG_INFINITY
-        } else {
-            f64::INFINITY
-        };
+        return if negative { f64::NEG_INFINITY } else { f64::INFINITY };
     }
     let (n, d) = (magnitude(n), magnitude(d));
     let shift = (56 + d.bit_len()).saturating_sub(n.bit_len());
     let (quotient, remainder) = (n << shift).div_rem(d);
-    let value = pack(
-        quotient,
-        !remainder.is_zero(),
-        n_exponent - d_exponent - shift as i64,
-    );
+    let value = pack(quotient, !remainder.is_zero(), n_exponent - d_exponent - shift as i64);
     if negative { -value } else { value }
 }
 
@@ -72,10 +56,7 @@ pub(super) fn root(p: &Dyadic, q: &Dyadic, radicand: &Dyadic, den: &Dyadic) -> f
     let mut bits = 128;
     loop {
         let (low, high) = enclose_sqrt(radicand, bits);
-        let (a, b) = (
-            ratio(&(p + &(q * &low)), den),
-            ratio(&(p + &(q * &high)), den),
-        );
+        let (a, b) = (ratio(&(p + &(q * &low)), den), ratio(&(p + &(q * &high)), den));
         if a == b {
             return a;
         }
@@ -93,10 +74,7 @@ pub(super) fn enclose_sqrt(radicand: &Dyadic, bits: usize) -> (Dyadic, Dyadic) {
     }
     let low = IBig::from(floor_sqrt(&(m << shift as usize)));
     let exponent = (e - shift) / 2;
-    (
-        Dyadic::from_parts(low.clone(), exponent),
-        Dyadic::from_parts(low + 1, exponent),
-    )
+    (Dyadic::from_parts(low.clone(), exponent), Dyadic::from_parts(low + 1, exponent))
 }
 
 fn magnitude(n: &IBig) -> UBig {
@@ -107,10 +85,7 @@ fn magnitude(n: &IBig) -> UBig {
 fn pack(quotient: UBig, sticky: bool, exponent: i64) -> f64 {
     // Keep 62 bits and one sticky bit below them: more than the 53 + 2 that rounding needs.
     let excess = quotient.bit_len().saturating_sub(62);
-    let sticky = sticky
-        || quotient
-            .trailing_zeros()
-            .is_some_and(|zeros| zeros < excess);
+    let sticky = sticky || quotient.trailing_zeros().is_some_and(|zeros| zeros < excess);
     // A number of at most 62 bits fits.
     let kept = u64::try_from(quotient >> excess).expect("at most 62 bits");
     let (m, e) = (kept << 1 | u64::from(sticky), exponent + excess as i64 - 1);
@@ -139,29 +114,11 @@ mod tests {
 
     #[test]
     fn quotients_of_f64s_are_what_the_hardware_says() {
-        let values = [
-            1.0,
-            3.0,
-            0.1,
-            1e-160,
-            7e150,
-            f64::MIN_POSITIVE,
-            f64::from_bits(1),
-            f64::MAX,
-            1.0 + f64::EPSILON,
-        ];
+        let values = [1.0, 3.0, 0.1, 1e-160, 7e150, f64::MIN_POSITIVE, f64::from_bits(1), f64::MAX, 1.0 + f64::EPSILON];
         for a in values {
             for b in values {
-                assert_eq!(
-                    ratio(&d(a), &d(b)).to_bits(),
-                    (a / b).to_bits(),
-                    "{a:e}/{b:e}"
-                );
-                assert_eq!(
-                    ratio(&d(-a), &d(b)).to_bits(),
-                    (-a / b).to_bits(),
-                    "-{a:e}/{b:e}"
-                );
+                assert_eq!(ratio(&d(a), &d(b)).to_bits(), (a / b).to_bits(), "{a:e}/{b:e}");
+                assert_eq!(ratio(&d(-a), &d(b)).to_bits(), (-a / b).to_bits(), "-{a:e}/{b:e}");
             }
         }
     }
@@ -174,10 +131,7 @@ mod tests {
         for odd in [0, 1] {
             let below = &one + &(&ulp * &Dyadic::integer(odd));
             let tie = &below + &ulp.scaled(-1);
-            let (low, high) = (
-                1.0 + odd as f64 * f64::EPSILON,
-                1.0 + (odd + 1) as f64 * f64::EPSILON,
-            );
+            let (low, high) = (1.0 + odd as f64 * f64::EPSILON, 1.0 + (odd + 1) as f64 * f64::EPSILON);
             assert_eq!(ratio(&tie, &one), if odd == 0 { low } else { high });
             assert_eq!(ratio(&(&tie - &crumb), &one), low);
             assert_eq!(ratio(&(&tie + &crumb), &one), high);
@@ -185,26 +139,13 @@ mod tests {
         let least = f64::from_bits(1);
         assert_eq!(ratio(&d(least), &Dyadic::integer(2)), 0.0);
         assert_eq!(ratio(&d(3.0 * least), &Dyadic::integer(2)), 2.0 * least);
-        assert_eq!(
-            ratio(&d(1.5 * f64::MIN_POSITIVE), &d(0.5)),
-            3.0 * f64::MIN_POSITIVE
-        );
+        assert_eq!(ratio(&d(1.5 * f64::MIN_POSITIVE), &d(0.5)), 3.0 * f64::MIN_POSITIVE);
     }
 
     #[test]
     fn roots_are_what_the_hardware_says() {
         let (zero, one) = (Dyadic::integer(0), Dyadic::integer(1));
-        for x in [
-            2.0,
-            3.0,
-            4.0,
-            0.1,
-            1e-300,
-            1e300,
-            2.25,
-            f64::MAX,
-            f64::from_bits(7),
-        ] {
+        for x in [2.0, 3.0, 4.0, 0.1, 1e-300, 1e300, 2.25, f64::MAX, f64::from_bits(7)] {
             assert_eq!(root(&zero, &one, &d(x), &one), x.sqrt(), "{x:e}");
         }
         assert_eq!(root(&one, &Dyadic::integer(-1), &one, &one), 0.0);

@@ -51,14 +51,7 @@ mod tests {
 
     #[test]
     fn exponents_bracket_their_number() {
-        for (x, e) in [
-            (1.0, 1),
-            (0.5, 0),
-            (0.75, 0),
-            (3.0, 2),
-            (f64::MAX, 1024),
-            (f64::MIN_POSITIVE, -1021),
-        ] {
+        for (x, e) in [(1.0, 1), (0.5, 0), (0.75, 0), (3.0, 2), (f64::MAX, 1024), (f64::MIN_POSITIVE, -1021)] {
             assert_eq!(exponent_of(x), e, "{x:e}");
         }
         assert_eq!(exponent_of(f64::from_bits(1)), -1073);
@@ -67,14 +60,7 @@ mod tests {
 
     #[test]
     fn scaling_there_and_back_is_the_identity() {
-        for bits in [
-            1u64,
-            3,
-            0xf_ffff_ffff_ffff,
-            1 << 52,
-            0x7fef_ffff_ffff_ffff,
-            0x3ff8_0000_0000_0001,
-        ] {
+        for bits in [1u64, 3, 0xf_ffff_ffff_ffff, 1 << 52, 0x7fef_ffff_ffff_ffff, 0x3ff8_0000_0000_0001] {
             let x = f64::from_bits(bits);
             let e = exponent_of(x);
             let y = by_power_of_two(x, -e);

@@ -5,9 +5,7 @@ use crate::arith::{FastKernel as K, Kernel};
 use crate::domain::normalise;
 use crate::generators::{Bytes, Draw, PointFamily, points};
 use crate::model::{Fill, Lines, Point2, SegmentId, Sign, Triangle, VertexId, canonical_triangle};
-use crate::triangulation::cdt2::{
-    BuildError, CarveError, Cdt2, Change, HalfEdge, Location, TriId, Walk,
-};
+use crate::triangulation::cdt2::{BuildError, CarveError, Cdt2, Change, HalfEdge, Location, TriId, Walk};
 use arbitrary::{Arbitrary, Result, Unstructured};
 use rug::Rational;
 
@@ -90,12 +88,7 @@ impl<'a> Arbitrary<'a> for CdtCase {
                 _ => Step::Commit,
             });
         }
-        Ok(CdtCase {
-            points: distinct,
-            segments,
-            carved,
-            steps,
-        })
+        Ok(CdtCase { points: distinct, segments, carved, steps })
     }
 }
 
@@ -105,9 +98,7 @@ fn segments_among(points: &[Point2], wanted: u32, draw: &mut impl Draw) -> Vec<[
     for _ in 0..wanted {
         let [a, b] = [(); 2].map(|()| VertexId(draw.below(points.len().max(1) as u32)));
         let fits = a != b
-            && points
-                .iter()
-                .all(|&q| !lies_inside(q, points[a.index()], points[b.index()]))
+            && points.iter().all(|&q| !lies_inside(q, points[a.index()], points[b.index()]))
             && segments.iter().all(|s| {
                 let ends = [s[0], s[1], a, b].map(|v| points[v.index()]);
                 !cross(ends) && *s != [a, b] && *s != [b, a]
@@ -183,13 +174,7 @@ struct Image {
 }
 
 /// A triangle: slot, vertices, birth, region, and of each edge the other side and the segment.
-type SeenTriangle = (
-    TriId,
-    [VertexId; 3],
-    u32,
-    u32,
-    [(Option<HalfEdge>, Option<SegmentId>); 3],
-);
+type SeenTriangle = (TriId, [VertexId; 3], u32, u32, [(Option<HalfEdge>, Option<SegmentId>); 3]);
 
 fn image(mesh: &Cdt) -> Image {
     Image {
@@ -202,18 +187,14 @@ fn image(mesh: &Cdt) -> Image {
                 (t, v, birth, region, sides)
             })
             .collect(),
-        from: (0..mesh.vertex_count() as u32)
-            .map(|v| mesh.edge_from(VertexId(v)))
-            .collect(),
+        from: (0..mesh.vertex_count() as u32).map(|v| mesh.edge_from(VertexId(v))).collect(),
     }
 }
 
 /// The canonical triangles with their regions, sorted.
 fn triangles(mesh: &Cdt) -> Vec<(Triangle, u32)> {
-    let mut all: Vec<(Triangle, u32)> = mesh
-        .triangles()
-        .map(|t| (canonical_triangle(mesh.vertices(t)), mesh.region(t)))
-        .collect();
+    let mut all: Vec<(Triangle, u32)> =
+        mesh.triangles().map(|t| (canonical_triangle(mesh.vertices(t)), mesh.region(t))).collect();
     all.sort_unstable();
     all
 }
@@ -241,11 +222,7 @@ impl Subject {
             Err(e) => {
                 assert_eq!(e, BuildError::Collinear, "{case:?}");
                 let line = case.points.windows(3);
-                assert!(
-                    line.into_iter()
-                        .all(|w| K::orient2d(w[0], w[1], w[2]) == Sign::Zero),
-                    "{case:?}"
-                );
+                assert!(line.into_iter().all(|w| K::orient2d(w[0], w[1], w[2]) == Sign::Zero), "{case:?}");
                 return None;
             }
         };
@@ -260,24 +237,19 @@ impl Subject {
                 .collect();
             segments.extend(hull);
         }
-        mesh.constrain(&segments)
-            .unwrap_or_else(|e| panic!("{e} of {case:?}"));
+        mesh.constrain(&segments).unwrap_or_else(|e| panic!("{e} of {case:?}"));
         let mut carved = case.carved.clone();
         if let Some(holes) = &mut carved
             && mesh.carve(Fill::Seeds, &[], holes, &[]).is_err()
         {
             holes.clear();
             // The hull is closed and encloses a triangle.
-            mesh.carve(Fill::Seeds, &[], &[], &[])
-                .unwrap_or_else(|e| panic!("{e} of {case:?}"));
+            mesh.carve(Fill::Seeds, &[], &[], &[]).unwrap_or_else(|e| panic!("{e} of {case:?}"));
         }
         Some(Subject {
             free: vec![false; case.points.len()],
             deleted: vec![false; case.points.len()],
-            subsegments: (0..)
-                .zip(&segments)
-                .map(|(i, &s)| (s, SegmentId(i)))
-                .collect(),
+            subsegments: (0..).zip(&segments).map(|(i, &s)| (s, SegmentId(i))).collect(),
             points: case.points.clone(),
             carved,
             exact: true,
@@ -337,10 +309,7 @@ impl Subject {
                 self.mesh.rollback();
                 assert_eq!(image(&self.mesh), saved.image);
                 let mesh = std::mem::replace(&mut self.mesh, saved.subject.mesh.clone());
-                *self = Subject {
-                    mesh,
-                    ..saved.subject
-                };
+                *self = Subject { mesh, ..saved.subject };
                 true
             }
             Step::Commit => {
@@ -371,15 +340,9 @@ impl Subject {
         let may: Vec<TriId> = self
             .mesh
             .triangles()
-            .filter(|&t| {
-                K::in_circle(self.mesh.corners(t), p).is_positive()
-                    && self.mesh.walk(t, p) == Walk::Reached
-            })
+            .filter(|&t| K::in_circle(self.mesh.corners(t), p).is_positive() && self.mesh.walk(t, p) == Walk::Reached)
             .collect();
-        assert!(
-            may.contains(&holder),
-            "the triangle that holds {p:?} sees it"
-        );
+        assert!(may.contains(&holder), "the triangle that holds {p:?} sees it");
         let corners = pick(&may, from).map(|&t| self.mesh.corners(t));
         assert!(corners.is_some_and(|t| self.is_seen(t, p)));
         let t = *pick(&may, from).unwrap_or(&holder);
@@ -405,33 +368,22 @@ impl Subject {
         let (u, v) = (mesh.origin(e), mesh.destination(e));
         let exact = K::orient2d(mesh.point(u), mesh.point(v), p) == Sign::Zero;
         let proper = |e: HalfEdge| {
-            let [u, v, a] =
-                [mesh.origin(e), mesh.destination(e), mesh.apex(e)].map(|v| mesh.point(v));
-            K::orient2d(u, p, a).is_positive()
-                && K::orient2d(p, v, a).is_positive()
-                && K::in_conflict([u, v, a], p)
+            let [u, v, a] = [mesh.origin(e), mesh.destination(e), mesh.apex(e)].map(|v| mesh.point(v));
+            K::orient2d(u, p, a).is_positive() && K::orient2d(p, v, a).is_positive() && K::in_conflict([u, v, a], p)
         };
         let ends = [u, v].map(|v| mesh.point(v));
         let sides = 1 + usize::from(mesh.twin(e).is_some());
         // Off a hull that stays, a fresh build would have another hull.
         let on_hull = self.carved.is_none() && sides == 1;
-        if ends.contains(&p)
-            || !proper(e)
-            || mesh.twin(e).is_some_and(|f| !proper(f))
-            || on_hull && !exact
-        {
+        if ends.contains(&p) || !proper(e) || mesh.twin(e).is_some_and(|f| !proper(f)) || on_hull && !exact {
             return false;
         }
         // An edge of the mesh with a label is a subsegment.
         let segment = mesh.segment(e).expect("the edge is constrained");
         let w = self.mesh.split(e, p, &mut self.change);
         assert_eq!(w.index(), self.points.len());
-        assert_eq!(
-            self.change.destroyed.len() + sides,
-            self.change.created.len()
-        );
-        self.subsegments
-            .retain(|(s, _)| !(s.contains(&u) && s.contains(&v)));
+        assert_eq!(self.change.destroyed.len() + sides, self.change.created.len());
+        self.subsegments.retain(|(s, _)| !(s.contains(&u) && s.contains(&v)));
         self.subsegments.push(([u, w], segment));
         self.subsegments.push(([w, v], segment));
         self.exact &= exact;
@@ -440,11 +392,7 @@ impl Subject {
     }
 
     fn validate(&self) {
-        for layer in [
-            self.mesh.validate_links(),
-            self.mesh.validate_orientation(),
-            self.mesh.validate_delaunay(),
-        ] {
+        for layer in [self.mesh.validate_links(), self.mesh.validate_orientation(), self.mesh.validate_delaunay()] {
             layer.unwrap_or_else(|e| panic!("{e}"));
         }
         if self.carved.is_none() {
@@ -454,22 +402,18 @@ impl Subject {
 
     /// The same triangulation, built from what is there now.
     fn fresh(&self) -> std::result::Result<(Cdt, Vec<VertexId>), String> {
-        let alive: Vec<VertexId> = (0..self.points.len() as u32)
-            .map(VertexId)
-            .filter(|v| !self.deleted[v.index()])
-            .collect();
+        let alive: Vec<VertexId> =
+            (0..self.points.len() as u32).map(VertexId).filter(|v| !self.deleted[v.index()]).collect();
         let dense = |v: VertexId| {
             // Ends of subsegments are never deleted.
             VertexId(alive.partition_point(|&a| a < v) as u32)
         };
         let points = alive.iter().map(|v| self.points[v.index()]).collect();
-        let segments: Vec<[VertexId; 2]> =
-            self.subsegments.iter().map(|(s, _)| s.map(dense)).collect();
+        let segments: Vec<[VertexId; 2]> = self.subsegments.iter().map(|(s, _)| s.map(dense)).collect();
         let mut mesh = Cdt::delaunay(points).map_err(|e| e.to_string())?;
         mesh.constrain(&segments).map_err(|e| e.to_string())?;
         if let Some(holes) = &self.carved {
-            mesh.carve(Fill::Seeds, &[], holes, &[])
-                .map_err(|e: CarveError| e.to_string())?;
+            mesh.carve(Fill::Seeds, &[], holes, &[]).map_err(|e: CarveError| e.to_string())?;
         }
         Ok((mesh, alive))
     }
@@ -500,12 +444,7 @@ impl Subject {
         assert_eq!(triangles(&self.mesh), expected);
         let mut edges: Vec<([VertexId; 2], SegmentId)> = labelled(&fresh)
             .into_iter()
-            .map(|(s, label)| {
-                (
-                    s.map(|v| alive[v.index()]),
-                    self.subsegments[label.index()].1,
-                )
-            })
+            .map(|(s, label)| (s.map(|v| alive[v.index()]), self.subsegments[label.index()].1))
             .collect();
         edges.sort_unstable();
         assert_eq!(labelled(&self.mesh), edges);
@@ -517,10 +456,7 @@ impl Subject {
             let corners = self.mesh.corners(t);
             for v in (0..self.points.len() as u32).map(VertexId) {
                 let q = self.points[v.index()];
-                if self.mesh.edge_from(v).is_some()
-                    && !corners.contains(&q)
-                    && K::in_conflict(corners, q)
-                {
+                if self.mesh.edge_from(v).is_some() && !corners.contains(&q) && K::in_conflict(corners, q) {
                     assert!(!self.is_seen(corners, q), "{corners:?} sees {q:?}");
                 }
             }
@@ -533,9 +469,7 @@ impl Subject {
         let q_exact = rational(q);
         !self.subsegments.iter().any(|(s, _)| {
             let [a, b] = s.map(|v| self.points[v.index()]);
-            if self.mesh.find_edge(s[0], s[1]).is_none()
-                && self.mesh.find_edge(s[1], s[0]).is_none()
-            {
+            if self.mesh.find_edge(s[0], s[1]).is_none() && self.mesh.find_edge(s[1], s[0]).is_none() {
                 return false;
             }
             let [a, b] = [rational(a), rational(b)];

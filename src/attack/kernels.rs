@@ -99,11 +99,7 @@ impl KernelCase {
         self.of_points::<K>(&mut all);
         let [a, b, c, d, e, f] = self.points;
         if K::orient2d(a, b, c).is_positive() {
-            let other = if K::orient2d(d, e, f).is_positive() {
-                [d, e, f]
-            } else {
-                [c, a, b]
-            };
+            let other = if K::orient2d(d, e, f).is_positive() { [d, e, f] } else { [c, a, b] };
             self.of_triangles::<K>([a, b, c], other, &mut all);
         }
         all
@@ -115,27 +111,15 @@ impl KernelCase {
         let delta = self.delta;
         all.extend([
             ("orient2d", K::orient2d(b, d, c).into()),
-            (
-                "in_diametral_circle",
-                K::in_diametral_circle(a, b, d).into(),
-            ),
+            ("in_diametral_circle", K::in_diametral_circle(a, b, d).into()),
             ("walk_side", K::walk_side([a, b, c], d, e).into()),
-            (
-                "edge_meets_diametral_disk",
-                K::edge_meets_diametral_disk(a, b, c, d).into(),
-            ),
+            ("edge_meets_diametral_disk", K::edge_meets_diametral_disk(a, b, c, d).into()),
             ("compare_lengths", K::compare_lengths(a, b, c, d).into()),
             ("compare_cos2", K::compare_cos2(a, b, c, self.cos2).into()),
-            (
-                "in_selection_interval",
-                K::in_selection_interval(a, b, delta, d).into(),
-            ),
+            ("in_selection_interval", K::in_selection_interval(a, b, delta, d).into()),
             ("length2", K::length2(a, d).into()),
             ("midpoint", K::midpoint(a, d).into()),
-            (
-                "in_interval",
-                K::in_interval(a, d, delta, self.place[0]).into(),
-            ),
+            ("in_interval", K::in_interval(a, d, delta, self.place[0]).into()),
         ]);
         if a != b {
             let k = K::shell_exponent(a, b);
@@ -143,14 +127,8 @@ impl KernelCase {
             all.extend([
                 ("shell_exponent", k.into()),
                 ("at_distance", K::at_distance(a, b, k).into()),
-                (
-                    "in_selection_interval of its point",
-                    K::in_selection_interval(a, b, delta, p).into(),
-                ),
-                (
-                    "orient2d of a point on an edge",
-                    K::orient2d(a, b, p).into(),
-                ),
+                ("in_selection_interval of its point", K::in_selection_interval(a, b, delta, p).into()),
+                ("orient2d of a point on an edge", K::orient2d(a, b, p).into()),
             ]);
         }
     }
@@ -163,21 +141,12 @@ impl KernelCase {
         all.extend([
             ("in_circle", K::in_circle(t, d).into()),
             ("compare_ratio", K::compare_ratio(t, u).into()),
-            (
-                "compare_area_ratio",
-                K::compare_area_ratio(t, bound, u, other).into(),
-            ),
-            (
-                "compare_radius_ratio",
-                K::compare_radius_ratio(t, bound, u, other).into(),
-            ),
+            ("compare_area_ratio", K::compare_area_ratio(t, bound, u, other).into()),
+            ("compare_radius_ratio", K::compare_radius_ratio(t, bound, u, other).into()),
             ("is_skinny", K::is_skinny(t, self.rho2).into()),
             ("exceeds_area", K::exceeds_area(t, bound).into()),
             ("exceeds_radius", K::exceeds_radius(t, bound).into()),
-            (
-                "in_selection_disk",
-                K::in_selection_disk(t, delta, d).into(),
-            ),
+            ("in_selection_disk", K::in_selection_disk(t, delta, d).into()),
             ("ratio2", K::ratio2(t).into()),
             ("area_ratio", K::area_ratio(t, bound).into()),
             ("radius_ratio2", K::radius_ratio2(t, bound).into()),
@@ -190,20 +159,14 @@ impl KernelCase {
             ("circumcenter", K::circumcenter(t)),
             ("in_disk", K::in_disk(t, delta, x, y)),
             ("offcenter", K::offcenter(shortest, self.kappa)),
-            (
-                "clamped_offcenter",
-                K::clamped_offcenter(shortest, self.kappa, delta),
-            ),
+            ("clamped_offcenter", K::clamped_offcenter(shortest, self.kappa, delta)),
         ] {
             all.push((name, made.into()));
             // What a construction gives is what decisions are taken on.
             if let Ok(p) = made {
                 all.extend([
                     ("in_circle of it", K::in_circle(t, p).into()),
-                    (
-                        "in_selection_disk of it",
-                        K::in_selection_disk(t, delta, p).into(),
-                    ),
+                    ("in_selection_disk of it", K::in_selection_disk(t, delta, p).into()),
                     ("walk_side to it", K::walk_side(t, p, e).into()),
                     ("orient2d with it", K::orient2d(t[0], t[1], p).into()),
                 ]);
@@ -235,11 +198,7 @@ pub(super) fn fitted(x: f64) -> f64 {
 
 /// x moved by some units in the last place.
 fn moved(x: f64, ulps: i32) -> f64 {
-    let step = if ulps < 0 {
-        f64::next_down
-    } else {
-        f64::next_up
-    };
+    let step = if ulps < 0 { f64::next_down } else { f64::next_up };
     (0..ulps.abs()).fold(x, |x, _| step(x))
 }
 
@@ -249,10 +208,7 @@ pub(super) fn point(draw: &mut impl Draw, before: &[Point2]) -> Point2 {
     let kind = draw.below(if before.len() < 2 { 4 } else { 9 });
     let one = |draw: &mut _| one_of(draw, before);
     let p = match kind {
-        0 => Point2::new(
-            coarse(&mut || draw.integer(-5, 5)),
-            coarse(&mut || draw.integer(-5, 5)),
-        ),
+        0 => Point2::new(coarse(&mut || draw.integer(-5, 5)), coarse(&mut || draw.integer(-5, 5))),
         1 => Point2::new(draw.signed_unit(), draw.signed_unit()),
         2 => {
             let (e, f) = (draw.integer(-141, 200), draw.integer(-141, 200));
@@ -266,18 +222,12 @@ pub(super) fn point(draw: &mut impl Draw, before: &[Point2]) -> Point2 {
             let [x, y] = [[65, 0], [63, 16], [60, 25], [56, 33], [52, 39]][draw.below(5) as usize];
             let [x, y] = if draw.coin() { [x, y] } else { [y, x] };
             let sign = |s: bool| if s { 1.0 } else { -1.0 };
-            Point2::new(
-                sign(draw.coin()) * f64::from(x),
-                sign(draw.coin()) * f64::from(y),
-            ) / 128.0
+            Point2::new(sign(draw.coin()) * f64::from(x), sign(draw.coin()) * f64::from(y)) / 128.0
         }
         // Beside an earlier one.
         4 => {
             let p = one(draw);
-            Point2::new(
-                moved(p.x, draw.integer(-4, 4)),
-                moved(p.y, draw.integer(-4, 4)),
-            )
+            Point2::new(moved(p.x, draw.integer(-4, 4)), moved(p.y, draw.integer(-4, 4)))
         }
         // On the line of two, up to rounding.
         5 => {
@@ -326,9 +276,8 @@ impl<'a> Arbitrary<'a> for KernelCase {
         let points: [Point2; 6] = std::array::from_fn(|k| list[k]);
         let t = [points[0], points[1], points[2]];
         let proper = ExactKernel::orient2d(t[0], t[1], t[2]).is_positive();
-        let power = |draw: &mut Bytes, low, high| {
-            scale::by_power_of_two(1.0, draw.integer(low, high)) * (1.0 + draw.unit())
-        };
+        let power =
+            |draw: &mut Bytes, low, high| scale::by_power_of_two(1.0, draw.integer(low, high)) * (1.0 + draw.unit());
         let rho2 = match draw.below(4) {
             0 => 1.0,
             // A tie, or a rounding beside it.
@@ -363,14 +312,6 @@ impl<'a> Arbitrary<'a> for KernelCase {
             _ => power(draw, -9, 99).min(1e30),
         };
         let cos2 = [0.25, 0.75, 1.0, 0.5, 0.1][draw.below(5) as usize];
-        Ok(KernelCase {
-            points,
-            rho2,
-            delta,
-            place,
-            kappa,
-            bounds,
-            cos2,
-        })
+        Ok(KernelCase { points, rho2, delta, place, kappa, bounds, cos2 })
     }
 }

@@ -4,9 +4,7 @@ use super::refinement::{GcdrCase, spacing_of, written};
 use crate::check::{Options, Verdict, verify};
 use crate::generators::{Bytes, Draw};
 use crate::model::{Level, Point2, SegmentId, Triangle, VertexId};
-use crate::trace::{
-    Cause, Counts, End, Event, Format, Outcome, Reader, Record, Shell, SkipReason, SplitKind, Why,
-};
+use crate::trace::{Cause, Counts, End, Event, Format, Outcome, Reader, Record, Shell, SkipReason, SplitKind, Why};
 use arbitrary::{Arbitrary, Result, Unstructured};
 
 /// A run, and the draws that change its trace.
@@ -67,24 +65,17 @@ impl MutatedTraceCase {
         }
         let mut reader = Reader::new(&bytes[..]);
         let changed: Vec<Record> = reader.by_ref().map_while(std::result::Result::ok).collect();
-        let sealed =
-            matches!(changed.last(), Some(Record::End(end)) if end.trace == reader.digest());
+        let sealed = matches!(changed.last(), Some(Record::End(end)) if end.trace == reader.digest());
         if bytes != original && sealed {
             let plain = verify(&changed, Options::default());
-            assert!(
-                matches!(plain, Verdict::Rejected(_)),
-                "digests let pass {changed:?} of {self:?}"
-            );
+            assert!(matches!(plain, Verdict::Rejected(_)), "digests let pass {changed:?} of {self:?}");
         }
         self.assert_found_out(trace, &changed);
     }
 
     /// Without digests: what differs in its events, its start or its end is rejected; of the rest nothing is claimed but a verdict.
     fn assert_found_out(&self, original: &[Record], changed: &[Record]) {
-        let options = |strict| Options {
-            strict,
-            digests: false,
-        };
+        let options = |strict| Options { strict, digests: false };
         let _ = verify(changed, options(false));
         let _ = spacing_of(changed);
         let verdict = verify(changed, options(true));
@@ -108,10 +99,7 @@ impl MutatedTraceCase {
                 differs.map(|k| original.get(k))
             );
         } else if same_input {
-            assert!(
-                matches!(verdict, Verdict::Accepted { .. }),
-                "a true trace: {verdict:?} of {self:?}"
-            );
+            assert!(matches!(verdict, Verdict::Accepted { .. }), "a true trace: {verdict:?} of {self:?}");
         }
     }
 }
@@ -120,23 +108,16 @@ impl MutatedTraceCase {
 fn belongs_to_input(record: &Record) -> bool {
     matches!(
         record,
-        Record::Header(_)
-            | Record::Vertex { .. }
-            | Record::Segment(_)
-            | Record::Hole(_)
-            | Record::Region(_)
+        Record::Header(_) | Record::Vertex { .. } | Record::Segment(_) | Record::Hole(_) | Record::Region(_)
     )
 }
 
 /// A record without what digests alone bind.
 fn unsealed(record: &Record) -> Record {
     match record {
-        Record::End(end) => Record::End(End {
-            stop_reason: None,
-            mesh: String::new(),
-            trace: String::new(),
-            ..end.clone()
-        }),
+        Record::End(end) => {
+            Record::End(End { stop_reason: None, mesh: String::new(), trace: String::new(), ..end.clone() })
+        }
         other => other.clone(),
     }
 }
@@ -144,9 +125,7 @@ fn unsealed(record: &Record) -> Record {
 /// Changes one record, or the order of records.
 fn edit(records: &mut Vec<Record>, draw: &mut impl Draw) {
     let any = |draw: &mut dyn FnMut() -> u64, n: usize| draw() as usize % n.max(1);
-    let events: Vec<usize> = (0..records.len())
-        .filter(|&k| matches!(records[k], Record::Event(_)))
-        .collect();
+    let events: Vec<usize> = (0..records.len()).filter(|&k| matches!(records[k], Record::Event(_))).collect();
     // Mostly events.
     let at = if events.is_empty() || draw.below(8) == 0 {
         any(&mut || draw.take(4), records.len())
@@ -193,10 +172,7 @@ fn change(record: &mut Record, draw: &mut impl Draw) {
         Record::Triangle(t) => triangle(t, draw),
         Record::Event(event) => change_event(event, draw),
         Record::End(end) => match draw.below(4) {
-            0 => {
-                end.outcome =
-                    [Outcome::Complete, Outcome::Holey, Outcome::Stopped][draw.below(3) as usize]
-            }
+            0 => end.outcome = [Outcome::Complete, Outcome::Holey, Outcome::Stopped][draw.below(3) as usize],
             1 => end.level_effective = level(draw),
             _ => count(&mut end.counts, draw),
         },
@@ -214,22 +190,14 @@ fn change_event(event: &mut Event, draw: &mut impl Draw) {
             true => id(v, draw),
             false => triangles(created, draw),
         },
-        Event::Skip {
-            t,
-            cause: why,
-            reason,
-        } => match draw.below(3) {
+        Event::Skip { t, cause: why, reason } => match draw.below(3) {
             0 => triangle(t, draw),
             1 => *why = cause(draw),
             _ => {
                 *reason = match draw.below(3) {
                     0 => SkipReason::Resolution,
-                    1 => SkipReason::InputAngle {
-                        apex: small_id(draw),
-                    },
-                    _ => SkipReason::SplitLimit {
-                        segment: SegmentId(draw.below(40)),
-                    },
+                    1 => SkipReason::InputAngle { apex: small_id(draw) },
+                    _ => SkipReason::SplitLimit { segment: SegmentId(draw.below(40)) },
                 }
             }
         },
@@ -251,20 +219,11 @@ fn change_why(why: &mut Why, draw: &mut impl Draw) {
             }
             _ => *c = cause(draw),
         },
-        Why::Split {
-            kind,
-            s,
-            t,
-            cause: c,
-            a,
-            shell,
-        } => match draw.below(7) {
+        Why::Split { kind, s, t, cause: c, a, shell } => match draw.below(7) {
             0 => {
                 *kind = match draw.coin() {
                     true => SplitKind::B,
-                    false => SplitKind::C {
-                        parent: small_id(draw),
-                    },
+                    false => SplitKind::C { parent: small_id(draw) },
                 }
             }
             1 => id(&mut s[draw.below(2) as usize], draw),
@@ -272,10 +231,8 @@ fn change_why(why: &mut Why, draw: &mut impl Draw) {
             3 => *c = cause(draw),
             4 => place(a, draw),
             5 => {
-                *shell = (draw.below(3) > 0).then(|| Shell {
-                    apex: small_id(draw),
-                    k: shell.map_or(0, |s| s.k) + draw.integer(-2, 2),
-                })
+                *shell = (draw.below(3) > 0)
+                    .then(|| Shell { apex: small_id(draw), k: shell.map_or(0, |s| s.k) + draw.integer(-2, 2) })
             }
             _ => *why = Why::Free { cause: *c },
         },
@@ -286,19 +243,12 @@ fn cause(draw: &mut impl Draw) -> Cause {
     match draw.below(3) {
         0 => Cause::Skinny,
         1 => Cause::Area,
-        _ => Cause::Size {
-            h: [1.0, 0.0, -1.0, f64::INFINITY, f64::NAN, 1e-3][draw.below(6) as usize],
-        },
+        _ => Cause::Size { h: [1.0, 0.0, -1.0, f64::INFINITY, f64::NAN, 1e-3][draw.below(6) as usize] },
     }
 }
 
 fn level(draw: &mut impl Draw) -> Option<Level> {
-    [
-        None,
-        Some(Level::Outside),
-        Some(Level::Admissible),
-        Some(Level::Graded),
-    ][draw.below(4) as usize]
+    [None, Some(Level::Outside), Some(Level::Admissible), Some(Level::Graded)][draw.below(4) as usize]
 }
 
 fn small_id(draw: &mut impl Draw) -> VertexId {
@@ -354,16 +304,7 @@ fn number(x: &mut f64, draw: &mut impl Draw) {
         0..=2 => x.next_up(),
         3..=5 => x.next_down(),
         6 => -*x,
-        7 => [
-            0.0,
-            f64::NAN,
-            f64::INFINITY,
-            -0.0,
-            f64::MAX,
-            f64::MIN_POSITIVE,
-            1e300,
-            1.0,
-        ][draw.below(8) as usize],
+        7 => [0.0, f64::NAN, f64::INFINITY, -0.0, f64::MAX, f64::MIN_POSITIVE, 1e300, 1.0][draw.below(8) as usize],
         8 => *x * 0.5,
         _ => *x + draw.signed_unit(),
     };

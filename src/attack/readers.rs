@@ -94,15 +94,10 @@ fn graph(bytes: &[u8], read: Result<Input, ReadError>) {
     let again = io::parse_poly(&file, None).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(again.pslg.points, graph.points);
     assert_eq!(again.pslg.attributes, graph.attributes);
-    let ends = |g: &crate::model::Pslg| -> Vec<_> {
-        g.segments.iter().map(|s| (s.ends, s.marker)).collect()
-    };
+    let ends = |g: &crate::model::Pslg| -> Vec<_> { g.segments.iter().map(|s| (s.ends, s.marker)).collect() };
     assert_eq!(ends(&again.pslg), ends(graph));
     let twice = io::write::triangle::pslg(&again.pslg);
-    assert_eq!(
-        twice.escape_ascii().to_string(),
-        file.escape_ascii().to_string()
-    );
+    assert_eq!(twice.escape_ascii().to_string(), file.escape_ascii().to_string());
 
     if graph.points.len() + graph.segments.len() <= MOST_MESHED {
         refine(&input);
@@ -119,16 +114,9 @@ fn refine(input: &Input) {
     let Ok(trace) = records::<FastKernel>(&prepared.pslg, &parameters, 12) else {
         return;
     };
-    let options = check::Options {
-        strict: true,
-        digests: true,
-    };
+    let options = check::Options { strict: true, digests: true };
     let verdict = verify(&trace, options);
-    assert!(
-        matches!(verdict, Verdict::Accepted { .. }),
-        "{verdict:?} of {:?}",
-        prepared.pslg
-    );
+    assert!(matches!(verdict, Verdict::Accepted { .. }), "{verdict:?} of {:?}", prepared.pslg);
 }
 
 /// Written in any format, read and written again, a mesh is the same file.
@@ -146,23 +134,13 @@ fn mesh(bytes: &[u8], read: Result<ForeignMesh, ReadError>) {
         let again = io::read_mesh(format, &once, |_| None);
         assert_same(&mesh, format, &once, again);
     }
-    let [node, ele, poly, edge] =
-        [Format::Node, Format::Ele, Format::Poly, Format::Edge].map(|f| written(&mesh, f));
-    for (format, file) in [
-        (Format::Node, &node),
-        (Format::Ele, &ele),
-        (Format::Poly, &poly),
-    ] {
+    let [node, ele, poly, edge] = [Format::Node, Format::Ele, Format::Poly, Format::Edge].map(|f| written(&mesh, f));
+    for (format, file) in [(Format::Node, &node), (Format::Ele, &ele), (Format::Poly, &poly)] {
         let companion = |f: Format| {
-            [
-                (Format::Node, &node),
-                (Format::Ele, &ele),
-                (Format::Poly, &poly),
-                (Format::Edge, &edge),
-            ]
-            .iter()
-            .find(|(g, _)| *g == f)
-            .map(|(_, bytes)| bytes.to_vec())
+            [(Format::Node, &node), (Format::Ele, &ele), (Format::Poly, &poly), (Format::Edge, &edge)]
+                .iter()
+                .find(|(g, _)| *g == f)
+                .map(|(_, bytes)| bytes.to_vec())
         };
         assert_same(&mesh, format, file, io::read_mesh(format, file, companion));
     }
@@ -174,12 +152,7 @@ fn written(mesh: &Mesh2, format: Format) -> Vec<u8> {
     io::write_mesh(mesh, format, None).expect("a format of meshes")
 }
 
-fn assert_same(
-    mesh: &Mesh2,
-    format: Format,
-    once: &[u8],
-    again: Option<Result<ForeignMesh, ReadError>>,
-) {
+fn assert_same(mesh: &Mesh2, format: Format, once: &[u8], again: Option<Result<ForeignMesh, ReadError>>) {
     let again = match again {
         Some(Ok(again)) => again.into_mesh(),
         other => panic!("{format:?} of {mesh:?}: {other:?}"),
@@ -187,11 +160,7 @@ fn assert_same(
     assert_eq!(again.points, mesh.points, "{format:?}");
     assert_eq!(again.triangles, mesh.triangles, "{format:?}");
     let twice = written(&again, format);
-    assert_eq!(
-        twice.escape_ascii().to_string(),
-        once.escape_ascii().to_string(),
-        "{format:?} of {mesh:?}"
-    );
+    assert_eq!(twice.escape_ascii().to_string(), once.escape_ascii().to_string(), "{format:?} of {mesh:?}");
 }
 
 /// What is read is canonical: written again it is the same bytes but for the digest, in the other form it reads back the same. The
@@ -199,10 +168,7 @@ fn assert_same(
 fn trace_of(bytes: &[u8]) {
     let mut reader = Reader::new(bytes);
     let mut records: Vec<Record> = Vec::new();
-    let mut checker = Checker::new(check::Options {
-        strict: true,
-        digests: true,
-    });
+    let mut checker = Checker::new(check::Options { strict: true, digests: true });
     for item in reader.by_ref() {
         let Ok(record) = item else { break };
         let _ = checker.push(&record);

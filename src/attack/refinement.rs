@@ -7,8 +7,7 @@ use crate::check::{self, Checker, Verdict, verify};
 use crate::domain::prepare;
 use crate::generators::{Bytes, Draw, PslgFamily, pslg};
 use crate::model::{
-    Choice, DeletionPolicy, DiskChoice, Fill, GcdrParameters, Lines, Pslg, QueueOrder, SmallAngles,
-    VertexOfTriangle,
+    Choice, DeletionPolicy, DiskChoice, Fill, GcdrParameters, Lines, Pslg, QueueOrder, SmallAngles, VertexOfTriangle,
 };
 use crate::refine::{self, gcdr};
 use crate::trace::{Format, Reader, Record, Recorder, Sink, Writer};
@@ -45,28 +44,17 @@ impl<'a> Arbitrary<'a> for GcdrCase {
         }
         if area >= 5 {
             // From some dozen to some thousand triangles over the bounding box.
-            parameters.max_area =
-                Some(box_area(&pslg) * scale::by_power_of_two(0.75, 2 - 3 * (area as i32 - 4)))
-                    .filter(|a| a.is_normal());
+            parameters.max_area = Some(box_area(&pslg) * scale::by_power_of_two(0.75, 2 - 3 * (area as i32 - 4)))
+                .filter(|a| a.is_normal());
         }
-        Ok(GcdrCase {
-            family,
-            pslg,
-            parameters,
-            steps,
-        })
+        Ok(GcdrCase { family, pslg, parameters, steps })
     }
 }
 
 /// Whether the toggling segments are closed cycles, as rings are: an even number of them at every vertex.
 fn closes_up(pslg: &Pslg) -> bool {
     let mut odd = vec![false; pslg.points.len()];
-    for v in pslg
-        .segments
-        .iter()
-        .filter(|s| s.toggles)
-        .flat_map(|s| s.ends)
-    {
+    for v in pslg.segments.iter().filter(|s| s.toggles).flat_map(|s| s.ends) {
         odd[v.index()] ^= true;
     }
     !odd.contains(&true)
@@ -101,15 +89,9 @@ pub(super) fn parameters(draw: &mut impl Draw) -> GcdrParameters {
     let mut choice = || [Choice::Center, Choice::Extreme, Choice::Random][draw.below(3) as usize];
     let [choice_b, choice_c] = [choice(), choice()];
     let on_segments = |c| choice_b == c || choice_c == c;
-    let vertex = [
-        VertexOfTriangle::First,
-        VertexOfTriangle::Newest,
-        VertexOfTriangle::Seeded,
-    ][draw.below(3) as usize];
+    let vertex = [VertexOfTriangle::First, VertexOfTriangle::Newest, VertexOfTriangle::Seeded][draw.below(3) as usize];
     let extreme = (choice_a == Extreme || on_segments(Choice::Extreme)).then_some(vertex);
-    let draws = choice_a == Random
-        || on_segments(Choice::Random)
-        || extreme == Some(VertexOfTriangle::Seeded);
+    let draws = choice_a == Random || on_segments(Choice::Random) || extreme == Some(VertexOfTriangle::Seeded);
     GcdrParameters {
         rho2,
         d1,
@@ -124,16 +106,8 @@ pub(super) fn parameters(draw: &mut impl Draw) -> GcdrParameters {
         }),
         extreme,
         seed: draws.then(|| draw.take(2)),
-        order: [
-            QueueOrder::ShortestEdge,
-            QueueOrder::WorstFirst,
-            QueueOrder::Fifo,
-        ][draw.below(3) as usize],
-        deletion: [
-            DeletionPolicy::Segment,
-            DeletionPolicy::Point,
-            DeletionPolicy::Disk,
-        ][draw.below(3) as usize],
+        order: [QueueOrder::ShortestEdge, QueueOrder::WorstFirst, QueueOrder::Fifo][draw.below(3) as usize],
+        deletion: [DeletionPolicy::Segment, DeletionPolicy::Point, DeletionPolicy::Disk][draw.below(3) as usize],
         small_angles: [SmallAngles::Shells, SmallAngles::Off][draw.below(2) as usize],
         max_area: None,
         size_function: false,
@@ -148,13 +122,8 @@ pub(super) fn records<K: Kernel>(
     max_steps: u64,
 ) -> std::result::Result<Vec<Record>, String> {
     let mut recorder = Recorder::default();
-    let mut options = refine::Options {
-        max_steps,
-        ..refine::Options::default()
-    };
-    gcdr::run::<K>(pslg, parameters, &mut options, &mut recorder)
-        .map(|_| recorder.0)
-        .map_err(|e| e.to_string())
+    let mut options = refine::Options { max_steps, ..refine::Options::default() };
+    gcdr::run::<K>(pslg, parameters, &mut options, &mut recorder).map(|_| recorder.0).map_err(|e| e.to_string())
 }
 
 impl GcdrCase {
@@ -169,10 +138,7 @@ impl GcdrCase {
 
     /// Asserts that the plain triangulation is the same with both kernels, and accepted.
     fn triangulate(&self, pslg: &Pslg) {
-        let whole = Pslg {
-            fill: Fill::Convex,
-            ..pslg.clone()
-        };
+        let whole = Pslg { fill: Fill::Convex, ..pslg.clone() };
         let (mut fast, mut exact) = (Recorder::default(), Recorder::default());
         let ends = [
             refine::triangulate::<FastKernel>(&whole, &mut fast),
@@ -182,15 +148,9 @@ impl GcdrCase {
         assert_eq!(ends[0], ends[1], "{self:?}");
         assert_eq!(fast.0, exact.0, "{self:?}");
         if ends[0].is_none() {
-            let strict = check::Options {
-                strict: true,
-                digests: true,
-            };
+            let strict = check::Options { strict: true, digests: true };
             let verdict = verify(&fast.0, strict);
-            assert!(
-                matches!(verdict, Verdict::Accepted { .. }),
-                "{verdict:?} of {self:?}"
-            );
+            assert!(matches!(verdict, Verdict::Accepted { .. }), "{verdict:?} of {self:?}");
         }
     }
 
@@ -218,10 +178,7 @@ impl GcdrCase {
         }
         assert_eq!(fast.len(), exact.len(), "{self:?}");
         for strict in [false, true] {
-            let options = check::Options {
-                strict,
-                digests: true,
-            };
+            let options = check::Options { strict, digests: true };
             match verify(&fast, options) {
                 Verdict::Accepted { unchecked, .. } => {
                     assert!(unchecked.is_empty() || !strict, "{unchecked:?} of {self:?}");
@@ -239,9 +196,7 @@ impl GcdrCase {
             let back: std::result::Result<Vec<Record>, _> = Reader::new(&bytes[..]).collect();
             let mut back = back.unwrap_or_else(|e| panic!("{e} of {self:?}"));
             // The recorder's end lacks the digest that the writer fills in.
-            if let (Some(Record::End(end)), Some(Record::End(original))) =
-                (back.last_mut(), fast.last())
-            {
+            if let (Some(Record::End(end)), Some(Record::End(original))) = (back.last_mut(), fast.last()) {
                 end.trace.clone_from(&original.trace);
             }
             assert_eq!(back, fast, "{format:?} of {self:?}");
@@ -251,10 +206,7 @@ impl GcdrCase {
 
 /// The first row of spacing that does not hold, of what the checker accepts of a trace.
 pub(super) fn spacing_of(records: &[Record]) -> Option<Violation> {
-    let mut checker = Checker::new(check::Options {
-        strict: false,
-        digests: false,
-    });
+    let mut checker = Checker::new(check::Options { strict: false, digests: false });
     let mut spacing = Spacing::new();
     for record in records {
         if checker.push(record).is_err() {

@@ -29,12 +29,7 @@ struct Strand {
 
 impl Strand {
     fn probe(p: Point2) -> Self {
-        Strand {
-            low: p,
-            high: p,
-            half: None,
-            above: 0,
-        }
+        Strand { low: p, high: p, half: None, above: 0 }
     }
 
     /// Where it stands relative to p, along the sweep line.
@@ -58,13 +53,8 @@ impl Ord for Strand {
             (None, _) => other.against(self.low).reverse().then(Ordering::Less),
             (_, None) => self.against(other.low).then(Ordering::Greater),
             _ => match lexicographic(self.low, other.low) {
-                Ordering::Greater => other
-                    .against(self.low)
-                    .then_with(|| other.against(self.high))
-                    .reverse(),
-                Ordering::Less => self
-                    .against(other.low)
-                    .then_with(|| self.against(other.high)),
+                Ordering::Greater => other.against(self.low).then_with(|| other.against(self.high)).reverse(),
+                Ordering::Less => self.against(other.low).then_with(|| self.against(other.high)),
                 Ordering::Equal => self.against(other.high),
             }
             .then(self.half.cmp(&other.half)),
@@ -92,25 +82,13 @@ pub(super) fn embedded(complex: &Complex<'_>, report: &mut ClaimReport) {
         let (p, q) = (complex.point(u), complex.point(v));
         let upward = lexicographic(p, q).is_lt();
         let (low, high, first) = if upward { (p, q, u) } else { (q, p, v) };
-        starts.push((
-            first,
-            Strand {
-                low,
-                high,
-                half: Some(half),
-                above: 0,
-            },
-        ));
+        starts.push((first, Strand { low, high, half: Some(half), above: 0 }));
         is_border[u as usize] = true;
         is_border[v as usize] = true;
     }
     starts.sort_unstable_by(|a, b| lexicographic(a.1.low, b.1.low));
     let mut rest = &starts[..];
-    let mut sweep = Sweep {
-        complex,
-        report,
-        status: BTreeSet::new(),
-    };
+    let mut sweep = Sweep { complex, report, status: BTreeSet::new() };
     for &w in complex.vertices.iter().filter(|&&w| is_border[w as usize]) {
         let count = rest.iter().take_while(|s| s.0 == w).count();
         let (starting, later) = rest.split_at(count);
@@ -129,21 +107,12 @@ impl Sweep<'_, '_> {
     /// Strands that touch others are reported and taken out; from the first on, winding numbers are not told any more.
     fn visit(&mut self, w: u32, mut starting: Vec<Strand>) {
         let p = self.complex.point(w);
-        let here: Vec<Strand> = self
-            .status
-            .range(Strand::probe(p)..)
-            .take_while(|s| s.against(p) == Ordering::Equal)
-            .copied()
-            .collect();
+        let here: Vec<Strand> =
+            self.status.range(Strand::probe(p)..).take_while(|s| s.against(p) == Ordering::Equal).copied().collect();
         for s in here {
             self.status.remove(&s);
             if s.high != p {
-                self.touch(
-                    &s,
-                    None,
-                    || format!("vertex {w} lies inside a border edge"),
-                    Some(w),
-                );
+                self.touch(&s, None, || format!("vertex {w} lies inside a border edge"), Some(w));
             }
         }
         starting.sort_unstable();
@@ -177,11 +146,7 @@ impl Sweep<'_, '_> {
         // Strands come from border half-edges.
         let half = s.half.unwrap();
         let [u, v] = self.complex.ends(half);
-        let above = if self.complex.point(u) == s.low {
-            below + 1
-        } else {
-            below - 1
-        };
+        let above = if self.complex.point(u) == s.low { below + 1 } else { below - 1 };
         if self.report.verdict == Verdict::Holds && below.min(above) != 0 {
             let t = self.complex.in_file[(half / 3) as usize];
             let covered = below.max(above);
@@ -206,27 +171,13 @@ impl Sweep<'_, '_> {
         }
     }
 
-    fn touch(
-        &mut self,
-        s: &Strand,
-        t: Option<&Strand>,
-        what: impl FnOnce() -> String,
-        w: Option<u32>,
-    ) {
-        let halves: Vec<u32> = [Some(s), t]
-            .into_iter()
-            .flatten()
-            .filter_map(|s| s.half)
-            .collect();
+    fn touch(&mut self, s: &Strand, t: Option<&Strand>, what: impl FnOnce() -> String, w: Option<u32>) {
+        let halves: Vec<u32> = [Some(s), t].into_iter().flatten().filter_map(|s| s.half).collect();
         let mut vertices: Vec<u32> = w.into_iter().collect();
         vertices.extend(halves.iter().flat_map(|&h| self.complex.ends(h)));
-        let triangles: Vec<u32> = halves
-            .iter()
-            .map(|&h| self.complex.in_file[(h / 3) as usize])
-            .collect();
-        self.report
-            .violated(self.complex.subject, &vertices, &triangles, || {
-                format!("{}: vertices {vertices:?}, triangles {triangles:?}", what())
-            });
+        let triangles: Vec<u32> = halves.iter().map(|&h| self.complex.in_file[(h / 3) as usize]).collect();
+        self.report.violated(self.complex.subject, &vertices, &triangles, || {
+            format!("{}: vertices {vertices:?}, triangles {triangles:?}", what())
+        });
     }
 }

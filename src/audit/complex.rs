@@ -48,9 +48,7 @@ impl<'a> Complex<'a> {
             report.verdict = Verdict::Unchecked;
             report.message = "there is no triangle".into();
         } else {
-            report = report.conclude(
-                "any two triangles meet in a common vertex, a common edge, or not at all",
-            );
+            report = report.conclude("any two triangles meet in a common vertex, a common edge, or not at all");
         }
         (complex, report)
     }
@@ -97,10 +95,7 @@ impl<'a> Complex<'a> {
     pub fn edge(&self, u: u32, v: u32) -> impl Iterator<Item = u32> + '_ {
         let key = [u.min(v), u.max(v)];
         let from = self.edges.partition_point(|e| e.0 < key);
-        self.edges[from..]
-            .iter()
-            .take_while(move |e| e.0 == key)
-            .map(|e| e.1)
+        self.edges[from..].iter().take_while(move |e| e.0 == key).map(|e| e.1)
     }
 
     /// Distinct edges, by their ends.
@@ -110,10 +105,7 @@ impl<'a> Complex<'a> {
 
     /// The vertex of a triangle at exactly this place.
     pub fn vertex_at(&self, p: Point2) -> Option<u32> {
-        self.vertices
-            .binary_search_by(|&v| lexicographic(self.point(v), p))
-            .ok()
-            .map(|i| self.vertices[i])
+        self.vertices.binary_search_by(|&v| lexicographic(self.point(v), p)).ok().map(|i| self.vertices[i])
     }
 
     /// Takes the triangles that are proper, turned counterclockwise.
@@ -122,19 +114,14 @@ impl<'a> Complex<'a> {
         for (i, t) in subject.triangles.iter().enumerate() {
             let i = i as u32;
             let [a, b, c] = t.map(|v| v.0);
-            if let Some(v) = [a, b, c]
-                .into_iter()
-                .find(|&v| v as usize >= subject.points.len())
-            {
+            if let Some(v) = [a, b, c].into_iter().find(|&v| v as usize >= subject.points.len()) {
                 report.violated(subject, &[], &[i], || {
                     format!("triangle {i} refers to vertex {v}, which does not exist")
                 });
                 continue;
             }
             if let Some(v) = [a, b, c].into_iter().find(|&v| !self.point(v).is_finite()) {
-                report.violated(subject, &[v], &[i], || {
-                    format!("triangle {i} has vertex {v}, which is not finite")
-                });
+                report.violated(subject, &[v], &[i], || format!("triangle {i} has vertex {v}, which is not finite"));
                 continue;
             }
             let triangle = match orient(self.point(a), self.point(b), self.point(c)) {
@@ -175,10 +162,7 @@ impl<'a> Complex<'a> {
                 }
                 _ => {
                     let [u, v] = edge[0].0;
-                    let triangles: Vec<u32> = edge
-                        .iter()
-                        .map(|e| self.in_file[(e.1 / 3) as usize])
-                        .collect();
+                    let triangles: Vec<u32> = edge.iter().map(|e| self.in_file[(e.1 / 3) as usize]).collect();
                     report.violated(self.subject, &[u, v], &triangles, || match edge.len() {
                         2 => format!("triangles {triangles:?} lie on the same side of their common edge {u}-{v}"),
                         n => format!("edge {u}-{v} belongs to {n} triangles: {triangles:?}"),
@@ -195,19 +179,13 @@ impl<'a> Complex<'a> {
         for &v in self.triangles.iter().flatten() {
             used[v as usize] = true;
         }
-        self.vertices = (0..used.len() as u32)
-            .filter(|&v| used[v as usize])
-            .collect();
+        self.vertices = (0..used.len() as u32).filter(|&v| used[v as usize]).collect();
         let points = self.subject.points;
-        self.vertices.sort_unstable_by(|&u, &v| {
-            lexicographic(points[u as usize], points[v as usize]).then(u.cmp(&v))
-        });
+        self.vertices.sort_unstable_by(|&u, &v| lexicographic(points[u as usize], points[v as usize]).then(u.cmp(&v)));
         for pair in self.vertices.windows(2) {
             let [u, v] = [pair[0], pair[1]];
             if points[u as usize] == points[v as usize] {
-                report.violated(self.subject, &[u, v], &[], || {
-                    format!("vertices {u} and {v} coincide")
-                });
+                report.violated(self.subject, &[u, v], &[], || format!("vertices {u} and {v} coincide"));
             }
         }
     }
@@ -218,9 +196,7 @@ pub(super) fn orientation(complex: &Complex<'_>) -> ClaimReport {
     let mut report = ClaimReport::new(Claim::Orientation);
     for &t in &complex.clockwise {
         let vertices = complex.subject.triangles[t as usize].map(|v| v.0);
-        report.violated(complex.subject, &vertices, &[t], || {
-            format!("triangle {t} is clockwise")
-        });
+        report.violated(complex.subject, &vertices, &[t], || format!("triangle {t} is clockwise"));
     }
     let all = !complex.clockwise.is_empty() && complex.clockwise.len() == complex.triangles.len();
     let mut report = report.conclude("every triangle is counterclockwise");

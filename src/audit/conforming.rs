@@ -40,11 +40,7 @@ pub(super) fn conforming(complex: &Complex<'_>, options: &Options<'_>) -> Confor
 
 /// The constraints that the file itself tells.
 fn named_edges(complex: &Complex<'_>) -> Conformity {
-    let Subject {
-        edges,
-        triangle_attributes,
-        ..
-    } = *complex.subject;
+    let Subject { edges, triangle_attributes, .. } = *complex.subject;
     let mut constraints = vec![false; complex.twin.len()];
     let mut report = ClaimReport::new(Claim::Conforming);
     for (i, &[u, v]) in edges.iter().enumerate() {
@@ -55,39 +51,22 @@ fn named_edges(complex: &Complex<'_>) -> Conformity {
         }
         if !found {
             report.violated(complex.subject, &[u.0, v.0], &[], || {
-                format!(
-                    "edge {i} ({}, {}) of the file is no edge of a triangle",
-                    u.0, v.0
-                )
+                format!("edge {i} ({}, {}) of the file is no edge of a triangle", u.0, v.0)
             });
         }
     }
     if !edges.is_empty() {
         let report = report.conclude("every edge that the file names is there; no input was given");
-        return Conformity {
-            report,
-            constraints,
-        };
+        return Conformity { report, constraints };
     }
     if !triangle_attributes.is_empty() {
-        let attribute = |t: u32| {
-            triangle_attributes
-                .get(complex.in_file[t as usize] as usize)
-                .map(|a| a.to_bits())
-        };
+        let attribute = |t: u32| triangle_attributes.get(complex.in_file[t as usize] as usize).map(|a| a.to_bits());
         for (h, twin) in complex.twin.iter().enumerate() {
-            constraints[h] =
-                twin.is_some_and(|twin| attribute(h as u32 / 3) != attribute(twin / 3));
+            constraints[h] = twin.is_some_and(|twin| attribute(h as u32 / 3) != attribute(twin / 3));
         }
     }
-    let report = ClaimReport::unchecked(
-        Claim::Conforming,
-        "no input was given, and the file names no edges",
-    );
-    Conformity {
-        report,
-        constraints,
-    }
+    let report = ClaimReport::unchecked(Claim::Conforming, "no input was given, and the file names no edges");
+    Conformity { report, constraints }
 }
 
 struct Search<'a> {
@@ -106,15 +85,10 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(complex: &'a Complex<'a>, input: &'a Pslg, within: f64) -> Self {
-        let largest = complex
-            .vertices
-            .iter()
-            .fold(0.0f64, |m, &v| m.max(complex.point(v).abs().max_element()));
+        let largest = complex.vertices.iter().fold(0.0f64, |m, &v| m.max(complex.point(v).abs().max_element()));
         let ulp = largest.next_up() - largest;
         let border: Vec<u32> = complex.border().collect();
-        let border_tree = Tree::new(border.len(), |i| {
-            complex.ends(border[i]).map(|v| complex.point(v))
-        });
+        let border_tree = Tree::new(border.len(), |i| complex.ends(border[i]).map(|v| complex.point(v)));
         Search {
             complex,
             input,
@@ -141,10 +115,7 @@ impl<'a> Search<'a> {
         self.border_on_segments();
         self.faces_left_out(&place, &missing);
         self.report.figures = vec![
-            (
-                "largest_deviation_ulps",
-                self.deviation / self.ulp.max(f64::MIN_POSITIVE),
-            ),
+            ("largest_deviation_ulps", self.deviation / self.ulp.max(f64::MIN_POSITIVE)),
             ("vertices_outside", outside as f64),
             ("segments_outside", missing.len() as f64),
         ];
@@ -153,29 +124,19 @@ impl<'a> Search<'a> {
             self.deviation / self.ulp.max(f64::MIN_POSITIVE),
             missing.len()
         );
-        Conformity {
-            report: self.report.conclude(&holds),
-            constraints: self.constraints,
-        }
+        Conformity { report: self.report.conclude(&holds), constraints: self.constraints }
     }
 
     /// For each input vertex the mesh vertex at its place; one that is missing must not be covered.
     fn vertices(&mut self) -> Vec<Option<u32>> {
-        let place: Vec<Option<u32>> = self
-            .input
-            .points
-            .iter()
-            .map(|&p| self.complex.vertex_at(p).filter(|_| p.is_finite()))
-            .collect();
+        let place: Vec<Option<u32>> =
+            self.input.points.iter().map(|&p| self.complex.vertex_at(p).filter(|_| p.is_finite())).collect();
         for (i, _) in place.iter().enumerate().filter(|(_, v)| v.is_none()) {
             let p = self.input.points[i];
             if p.is_finite() && self.covered(p) {
                 let subject = self.complex.subject;
                 self.report.violated(subject, &[], &[], || {
-                    format!(
-                        "input vertex {i} at ({}, {}) is no vertex of the mesh that covers it",
-                        p.x, p.y
-                    )
+                    format!("input vertex {i} at ({}, {}) is no vertex of the mesh that covers it", p.x, p.y)
                 });
             }
         }
@@ -187,10 +148,7 @@ impl<'a> Search<'a> {
         let (mut winding, mut on_border) = (0, false);
         let enter = |low: Point2, high: Point2| low.y <= p.y && p.y <= high.y && high.x >= p.x;
         self.border_tree.visit(enter, |i| {
-            let [a, b] = self
-                .complex
-                .ends(self.border[i as usize])
-                .map(|v| self.complex.point(v));
+            let [a, b] = self.complex.ends(self.border[i as usize]).map(|v| self.complex.point(v));
             if !enter(a.min(b), a.max(b)) {
                 return true;
             }
@@ -222,27 +180,17 @@ impl<'a> Search<'a> {
         let (Some(p), Some(q)) = (point(0), point(1)) else {
             return true;
         };
-        let inside =
-            end(0).is_some_and(|a| self.enters(a, q)) || end(1).is_some_and(|b| self.enters(b, p));
+        let inside = end(0).is_some_and(|a| self.enters(a, q)) || end(1).is_some_and(|b| self.enters(b, p));
         if inside {
             let vertices: Vec<u32> = [end(0), end(1)].into_iter().flatten().collect();
             let subject = self.complex.subject;
             self.report.violated(subject, &vertices, &[], || {
-                let line = lines
-                    .get(i)
-                    .filter(|&&l| l > 0)
-                    .map(|l| format!(", line {l} of the input"))
-                    .unwrap_or_default();
-                format!(
-                    "segment {i} of the input ({}, {}{line}) is no chain of edges",
-                    s.ends[0].0, s.ends[1].0
-                )
+                let line =
+                    lines.get(i).filter(|&&l| l > 0).map(|l| format!(", line {l} of the input")).unwrap_or_default();
+                format!("segment {i} of the input ({}, {}{line}) is no chain of edges", s.ends[0].0, s.ends[1].0)
             });
-            if let Some(w) = self
-                .report
-                .witnesses
-                .last_mut()
-                .filter(|_| self.report.violations <= super::LISTED_WITNESSES as u64)
+            if let Some(w) =
+                self.report.witnesses.last_mut().filter(|_| self.report.violations <= super::LISTED_WITNESSES as u64)
             {
                 w.input.push(SegmentId(i as u32));
             }
@@ -264,9 +212,7 @@ impl<'a> Search<'a> {
             }
             let (offsets, list) = &self.neighbors;
             let at = |w: u32| self.complex.point(w);
-            let next = list[offsets[v as usize] as usize..offsets[v as usize + 1] as usize]
-                .iter()
-                .copied();
+            let next = list[offsets[v as usize] as usize..offsets[v as usize + 1] as usize].iter().copied();
             let next = next.filter(|&w| {
                 !tried.contains(&w)
                     && (w == b
@@ -276,11 +222,7 @@ impl<'a> Search<'a> {
             });
             let nearest = next.min_by(|&w, &x| {
                 let d = |w: u32| {
-                    if w == b {
-                        -1.0
-                    } else {
-                        (at(w) - p).perp_dot(q - p).abs()
-                    }
+                    if w == b { -1.0 } else { (at(w) - p).perp_dot(q - p).abs() }
                 };
                 d(w).total_cmp(&d(x)).then(w.cmp(&x))
             });
@@ -314,20 +256,14 @@ impl<'a> Search<'a> {
     fn enters(&self, v: u32, q: Point2) -> bool {
         let (offsets, list) = &self.neighbors;
         let p = self.complex.point(v);
-        list[offsets[v as usize] as usize..offsets[v as usize + 1] as usize]
-            .iter()
-            .any(|&w| {
-                self.complex
-                    .edge(v, w)
-                    .filter(|&h| self.complex.ends(h) == [v, w])
-                    .any(|h| {
-                        let right = orient(p, self.complex.point(w), q);
-                        let left = orient(p, self.complex.point(self.complex.apex(h)), q);
-                        let ahead = along(p, self.complex.point(w), q, p) == Ordering::Greater;
-                        (right == Ordering::Greater && left == Ordering::Less)
-                            || (right == Ordering::Equal && ahead)
-                    })
+        list[offsets[v as usize] as usize..offsets[v as usize + 1] as usize].iter().any(|&w| {
+            self.complex.edge(v, w).filter(|&h| self.complex.ends(h) == [v, w]).any(|h| {
+                let right = orient(p, self.complex.point(w), q);
+                let left = orient(p, self.complex.point(self.complex.apex(h)), q);
+                let ahead = along(p, self.complex.point(w), q, p) == Ordering::Greater;
+                (right == Ordering::Greater && left == Ordering::Less) || (right == Ordering::Equal && ahead)
             })
+        })
     }
 
     /// Every border edge is in a chain, unless the hull is to be meshed.
@@ -339,10 +275,9 @@ impl<'a> Search<'a> {
             if !self.constraints[h as usize] {
                 let [u, v] = self.complex.ends(h);
                 let t = self.complex.in_file[(h / 3) as usize];
-                self.report
-                    .violated(self.complex.subject, &[u, v], &[t], || {
-                        format!("border edge {u}-{v} is part of no input segment")
-                    });
+                self.report.violated(self.complex.subject, &[u, v], &[t], || {
+                    format!("border edge {u}-{v} is part of no input segment")
+                });
             }
         }
     }
@@ -356,10 +291,7 @@ impl<'a> Search<'a> {
         for (i, &seed) in self.input.holes.iter().enumerate() {
             if seed.is_finite() && self.covered(seed) {
                 self.report.violated(subject, &[], &[], || {
-                    format!(
-                        "the mesh covers the seed of hole {i} at ({}, {})",
-                        seed.x, seed.y
-                    )
+                    format!("the mesh covers the seed of hole {i} at ({}, {})", seed.x, seed.y)
                 });
             } else {
                 uncovered += 1;
@@ -376,16 +308,11 @@ impl<'a> Search<'a> {
             classes.join(a, c);
         }
         let node = |v: usize| place[v].unwrap_or((base + v) as u32);
-        let cycles = missing
-            .iter()
-            .filter(|s| !classes.join(node(s.ends[0].index()), node(s.ends[1].index())))
-            .count();
+        let cycles = missing.iter().filter(|s| !classes.join(node(s.ends[0].index()), node(s.ends[1].index()))).count();
         let faces = Counts::of(self.complex).holes() + cycles as i64;
         if faces > uncovered && self.report.verdict == Verdict::Holds {
             self.report.violated(subject, &[], &[], || {
-                format!(
-                    "{faces} closed faces are left out, but only {uncovered} hole seeds ask for it"
-                )
+                format!("{faces} closed faces are left out, but only {uncovered} hole seeds ask for it")
             });
         }
     }

@@ -11,14 +11,12 @@ use std::cmp::Ordering;
 /// Local test at every unconstrained edge: by the constrained Delaunay lemma equivalent to circles empty of visible vertices.
 pub(super) fn constrained(complex: &Complex<'_>, constraints: &[bool]) -> ClaimReport {
     let inside = |t, q| in_circle(t, q) == Ordering::Greater;
-    local(complex, Claim::Constrained, constraints, inside)
-        .conclude("no visible vertex inside a circle")
+    local(complex, Claim::Constrained, constraints, inside).conclude("no visible vertex inside a circle")
 }
 
 /// As `constrained`, ties decided by the perturbation.
 pub(super) fn canonical(complex: &Complex<'_>, constraints: &[bool]) -> ClaimReport {
-    local(complex, Claim::Canonical, constraints, in_conflict)
-        .conclude("no conflict under the one tie-break")
+    local(complex, Claim::Canonical, constraints, in_conflict).conclude("no conflict under the one tie-break")
 }
 
 fn local(

@@ -76,9 +76,7 @@ pub(super) fn in_conflict(t: [Point2; 3], d: Point2) -> bool {
 
 /// Order by x, then by y; -0 equals 0. Coordinates are finite.
 pub(super) fn lexicographic(a: Point2, b: Point2) -> Ordering {
-    (a.x + 0.0)
-        .total_cmp(&(b.x + 0.0))
-        .then((a.y + 0.0).total_cmp(&(b.y + 0.0)))
+    (a.x + 0.0).total_cmp(&(b.x + 0.0)).then((a.y + 0.0).total_cmp(&(b.y + 0.0)))
 }
 
 fn difference<N: Scalar>(a: Point2, b: Point2) -> [N; 2] {
@@ -94,11 +92,7 @@ fn cross<N: Scalar>([a, b]: [N; 2], [c, d]: [N; 2]) -> N {
 }
 
 fn skinny_in<N: Scalar>([a, b, c]: [Point2; 3], rho2: f64) -> Option<Ordering> {
-    let edges = [
-        difference::<N>(b, a),
-        difference::<N>(c, b),
-        difference::<N>(a, c),
-    ];
+    let edges = [difference::<N>(b, a), difference::<N>(c, b), difference::<N>(a, c)];
     let [l, m, n] = edges.clone().map(|e| dot(e.clone(), e));
     // The product of the two longer squares is the largest of the three products.
     let longer = (l.clone() * m.clone()).max(m * n.clone()).max(n * l);
@@ -113,9 +107,7 @@ fn orient_in<N: Scalar>(a: Point2, b: Point2, c: Point2) -> Option<Ordering> {
 fn in_circle_in<N: Scalar>(t: [Point2; 3], d: Point2) -> Option<Ordering> {
     let [u, v, w] = t.map(|p| difference::<N>(p, d));
     let lift = |p: &[N; 2]| dot(p.clone(), p.clone());
-    let sum = lift(&u) * cross(v.clone(), w.clone())
-        + lift(&v) * cross(w.clone(), u.clone())
-        + lift(&w) * cross(u, v);
+    let sum = lift(&u) * cross(v.clone(), w.clone()) + lift(&v) * cross(w.clone(), u.clone()) + lift(&w) * cross(u, v);
     sum.compare(&N::of(0.0))
 }
 
@@ -126,9 +118,7 @@ fn along_in<N: Scalar>(a: Point2, b: Point2, p: Point2, q: Point2) -> Option<Ord
 fn near_line_in<N: Scalar>(a: Point2, b: Point2, p: Point2, distance: f64) -> Option<Ordering> {
     let (u, v) = (difference::<N>(b, a), difference::<N>(p, a));
     let length2 = dot(u.clone(), u.clone());
-    cross(u, v)
-        .squared()
-        .compare(&(N::of(distance).squared() * length2))
+    cross(u, v).squared().compare(&(N::of(distance).squared() * length2))
 }
 
 #[cfg(test)]
@@ -142,22 +132,10 @@ mod tests {
     #[test]
     fn nearly_and_exactly_degenerate() {
         let e = 2f64.powi(-60);
-        assert_eq!(
-            orient(p(0.0, 0.0), p(1.0, 1.0), p(3.0, 3.0)),
-            Ordering::Equal
-        );
-        assert_eq!(
-            orient(p(0.0, e), p(1.0, 1.0), p(3.0, 3.0)),
-            Ordering::Greater
-        );
-        assert_eq!(
-            orient(p(1e-300, 0.0), p(0.0, 1e-300), p(-1e-300, 0.0)),
-            Ordering::Greater
-        );
-        assert_eq!(
-            orient(p(1e300, 0.0), p(0.0, 1e300), p(-1e300, 0.0)),
-            Ordering::Greater
-        );
+        assert_eq!(orient(p(0.0, 0.0), p(1.0, 1.0), p(3.0, 3.0)), Ordering::Equal);
+        assert_eq!(orient(p(0.0, e), p(1.0, 1.0), p(3.0, 3.0)), Ordering::Greater);
+        assert_eq!(orient(p(1e-300, 0.0), p(0.0, 1e-300), p(-1e-300, 0.0)), Ordering::Greater);
+        assert_eq!(orient(p(1e300, 0.0), p(0.0, 1e300), p(-1e300, 0.0)), Ordering::Greater);
         let square = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0)];
         assert_eq!(in_circle(square, p(0.0, 1.0)), Ordering::Equal);
         assert_eq!(in_circle(square, p(e, 1.0)), Ordering::Greater);
@@ -170,16 +148,8 @@ mod tests {
         let q = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0)];
         for shift in [p(0.0, 0.0), p(-5.0, 3.0)] {
             let [a, b, c, d] = q.map(|x| x + shift);
-            let ac = [
-                in_conflict([a, b, c], d),
-                in_conflict([b, c, a], d),
-                in_conflict([c, d, a], b),
-            ];
-            let bd = [
-                in_conflict([a, b, d], c),
-                in_conflict([b, d, a], c),
-                in_conflict([b, c, d], a),
-            ];
+            let ac = [in_conflict([a, b, c], d), in_conflict([b, c, a], d), in_conflict([c, d, a], b)];
+            let bd = [in_conflict([a, b, d], c), in_conflict([b, d, a], c), in_conflict([b, c, d], a)];
             assert_eq!(ac, [ac[0]; 3]);
             assert_eq!(bd, [bd[0]; 3]);
             assert_ne!(ac[0], bd[0]);

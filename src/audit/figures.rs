@@ -36,10 +36,7 @@ fn shape(complex: &Complex<'_>, t: u32) -> Shape {
 
 /// Angles, ratios, areas; the triangles of least angle as witnesses.
 pub(super) fn quality(complex: &Complex<'_>, rho2: Option<f64>) -> ClaimReport {
-    let mut report = ClaimReport {
-        verdict: Verdict::Told,
-        ..ClaimReport::new(Claim::Quality)
-    };
+    let mut report = ClaimReport { verdict: Verdict::Told, ..ClaimReport::new(Claim::Quality) };
     let count = complex.triangles.len();
     if count == 0 {
         report.message = "there is no triangle".into();
@@ -59,9 +56,8 @@ pub(super) fn quality(complex: &Complex<'_>, rho2: Option<f64>) -> ClaimReport {
     }
     by_angle.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let below = |degrees: f64| by_angle.partition_point(|a| a.0 < degrees) as f64;
-    report.message = format!(
-        "angles from {least:.4} to {largest:.4} degrees, circumradius at most {ratio:.4} shortest edges"
-    );
+    report.message =
+        format!("angles from {least:.4} to {largest:.4} degrees, circumradius at most {ratio:.4} shortest edges");
     report.figures = vec![
         ("triangles", count as f64),
         ("min_angle", least),
@@ -75,15 +71,10 @@ pub(super) fn quality(complex: &Complex<'_>, rho2: Option<f64>) -> ClaimReport {
     ];
     if let Some(rho2) = rho2 {
         report.verdict = Verdict::Holds;
-        for &(angle, t) in by_angle
-            .iter()
-            .filter(|a| is_skinny(complex.corners(a.1), rho2))
-        {
+        for &(angle, t) in by_angle.iter().filter(|a| is_skinny(complex.corners(a.1), rho2)) {
             let (file, vertices) = (complex.in_file[t as usize], complex.triangles[t as usize]);
             report.violated(complex.subject, &vertices, &[file], || {
-                format!(
-                    "triangle {file} {vertices:?} is skinny, with an angle of {angle:.4} degrees"
-                )
+                format!("triangle {file} {vertices:?} is skinny, with an angle of {angle:.4} degrees")
             });
         }
         return report;
@@ -94,14 +85,7 @@ pub(super) fn quality(complex: &Complex<'_>, rho2: Option<f64>) -> ClaimReport {
         report.witnesses.push(Witness {
             message: format!("triangle {file} {vertices:?} has an angle of {angle:.4} degrees"),
             coordinates: complex.corners(t).map(|p| [p.x, p.y]).to_vec(),
-            lines: complex
-                .subject
-                .triangle_lines
-                .get(file as usize)
-                .copied()
-                .filter(|&l| l > 0)
-                .into_iter()
-                .collect(),
+            lines: complex.subject.triangle_lines.get(file as usize).copied().filter(|&l| l > 0).into_iter().collect(),
             vertices,
             triangles: vec![file],
             input: Vec::new(),
@@ -150,14 +134,8 @@ impl Counts {
             vertices: complex.vertices.len() as i64,
             edges: complex.edges().count() as i64,
             triangles: complex.triangles.len() as i64,
-            components: complex
-                .vertices
-                .iter()
-                .filter(|&&v| by_vertex.find(v) == v)
-                .count() as i64,
-            strong_components: (0..complex.triangles.len() as u32)
-                .filter(|&t| by_edge.find(t) == t)
-                .count() as i64,
+            components: complex.vertices.iter().filter(|&&v| by_vertex.find(v) == v).count() as i64,
+            strong_components: (0..complex.triangles.len() as u32).filter(|&t| by_edge.find(t) == t).count() as i64,
             border_loops: loops,
             border_edges: complex.border().count() as i64,
         }
@@ -182,10 +160,7 @@ pub(super) fn topology(complex: &Complex<'_>) -> ClaimReport {
     }
     let pinched = border_degree.iter().filter(|&&d| d > 1).count();
     let unused = complex.subject.points.len() as i64 - c.vertices;
-    let mut report = ClaimReport {
-        verdict: Verdict::Told,
-        ..ClaimReport::new(Claim::Topology)
-    };
+    let mut report = ClaimReport { verdict: Verdict::Told, ..ClaimReport::new(Claim::Topology) };
     report.message = format!(
         "{} component{}, {} hole{}, Euler characteristic {}",
         c.components,

@@ -68,12 +68,7 @@ pub struct Options<'a> {
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Options {
-            claims: &Claim::ALL,
-            input: None,
-            within: 2.0,
-            rho2: None,
-        }
+        Options { claims: &Claim::ALL, input: None, within: 2.0, rho2: None }
     }
 }
 

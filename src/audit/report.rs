@@ -111,24 +111,14 @@ pub struct ClaimReport {
     pub figures: Vec<(&'static str, f64)>,
 }
 
-fn as_map<S: serde::Serializer>(
-    figures: &[(&'static str, f64)],
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
+fn as_map<S: serde::Serializer>(figures: &[(&'static str, f64)], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(figures.iter().copied())
 }
 
 impl ClaimReport {
     pub(super) fn new(claim: Claim) -> Self {
         let (verdict, message) = (Verdict::Holds, String::new());
-        ClaimReport {
-            claim,
-            verdict,
-            message,
-            witnesses: Vec::new(),
-            violations: 0,
-            figures: Vec::new(),
-        }
+        ClaimReport { claim, verdict, message, witnesses: Vec::new(), violations: 0, figures: Vec::new() }
     }
 
     /// Counts a violation, and lists it if there is room.
@@ -146,15 +136,9 @@ impl ClaimReport {
         }
         let point = |&v: &u32| subject.points.get(v as usize).map(|p| [p.x, p.y]);
         let line = |lines: &[u32], i: &u32| lines.get(*i as usize).copied().filter(|&l| l > 0);
-        let mut lines: Vec<u32> = triangles
-            .iter()
-            .filter_map(|t| line(subject.triangle_lines, t))
-            .collect();
+        let mut lines: Vec<u32> = triangles.iter().filter_map(|t| line(subject.triangle_lines, t)).collect();
         if lines.is_empty() {
-            lines = vertices
-                .iter()
-                .filter_map(|v| line(subject.point_lines, v))
-                .collect();
+            lines = vertices.iter().filter_map(|v| line(subject.point_lines, v)).collect();
         }
         self.witnesses.push(Witness {
             message: message(),
@@ -177,11 +161,7 @@ impl ClaimReport {
     }
 
     pub(super) fn unchecked(claim: Claim, message: &str) -> Self {
-        ClaimReport {
-            verdict: Verdict::Unchecked,
-            message: message.into(),
-            ..ClaimReport::new(claim)
-        }
+        ClaimReport { verdict: Verdict::Unchecked, message: message.into(), ..ClaimReport::new(claim) }
     }
 }
 

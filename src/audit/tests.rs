@@ -18,23 +18,9 @@ fn ids(triangles: &[[u32; 3]]) -> Vec<[VertexId; 3]> {
 
 fn run(p: &[(f64, f64)], triangles: &[[u32; 3]], claim: Claim) -> ClaimReport {
     let (p, t) = (points(p), ids(triangles));
-    let subject = Subject {
-        points: &p,
-        triangles: &t,
-        ..Subject::default()
-    };
-    let report = audit(
-        &subject,
-        &Options {
-            claims: &[claim],
-            ..Options::default()
-        },
-    );
-    report
-        .claims
-        .into_iter()
-        .next()
-        .expect("one claim was asked for")
+    let subject = Subject { points: &p, triangles: &t, ..Subject::default() };
+    let report = audit(&subject, &Options { claims: &[claim], ..Options::default() });
+    report.claims.into_iter().next().expect("one claim was asked for")
 }
 
 fn shifted(triangles: &[[u32; 3]], by: u32) -> Triangles {
@@ -45,11 +31,7 @@ const SQUARE: [(f64, f64); 4] = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
 
 /// A square ring: outer corners 0-3, inner corners 4-7.
 fn ring() -> (Vec<(f64, f64)>, Triangles) {
-    let p = [
-        &SQUARE[..],
-        &[(1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0)],
-    ]
-    .concat();
+    let p = [&SQUARE[..], &[(1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0)]].concat();
     let t = (0..4).flat_map(|i| {
         let j = (i + 1) % 4;
         [[i, j, i + 4], [j, j + 4, i + 4]]
@@ -72,50 +54,26 @@ fn fan(n: u32, turns: f64) -> (Vec<(f64, f64)>, Triangles) {
 #[test]
 fn valid_meshes_pass() {
     let (ring_points, ring_triangles) = ring();
-    let island: Vec<(f64, f64)> =
-        [&ring_points[..], &[(1.5, 1.5), (2.0, 1.5), (2.0, 2.0)]].concat();
+    let island: Vec<(f64, f64)> = [&ring_points[..], &[(1.5, 1.5), (2.0, 1.5), (2.0, 2.0)]].concat();
     let (fan_points, fan_triangles) = fan(7, 1.0);
     let table: Vec<(&str, Vec<(f64, f64)>, Triangles)> = vec![
         ("a triangle", SQUARE.to_vec(), vec![[0, 1, 2]]),
         ("a clockwise triangle", SQUARE.to_vec(), vec![[0, 2, 1]]),
         ("a square", SQUARE.to_vec(), vec![[0, 1, 2], [2, 3, 0]]),
-        (
-            "of mixed orientation",
-            SQUARE.to_vec(),
-            vec![[0, 2, 1], [2, 3, 0]],
-        ),
+        ("of mixed orientation", SQUARE.to_vec(), vec![[0, 2, 1], [2, 3, 0]]),
         ("a ring", ring_points, ring_triangles.clone()),
-        (
-            "an island in a ring",
-            island,
-            [&ring_triangles[..], &[[8, 9, 10]]].concat(),
-        ),
+        ("an island in a ring", island, [&ring_triangles[..], &[[8, 9, 10]]].concat()),
         ("a fan", fan_points, fan_triangles),
         (
             "two triangles at a vertex",
-            vec![
-                (0.0, 0.0),
-                (1.0, 0.0),
-                (1.0, 1.0),
-                (-1.0, 0.0),
-                (-1.0, -1.0),
-            ],
+            vec![(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (-1.0, 0.0), (-1.0, -1.0)],
             vec![[0, 1, 2], [0, 3, 4]],
         ),
-        (
-            "an unused vertex inside",
-            vec![(0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (1.0, 1.0)],
-            vec![[0, 1, 2]],
-        ),
+        ("an unused vertex inside", vec![(0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (1.0, 1.0)], vec![[0, 1, 2]]),
     ];
     for (name, p, t) in table {
         let report = run(&p, &t, Claim::Valid);
-        assert_eq!(
-            report.verdict,
-            Verdict::Holds,
-            "{name}: {:?}",
-            report.witnesses
-        );
+        assert_eq!(report.verdict, Verdict::Holds, "{name}: {:?}", report.witnesses);
     }
 }
 
@@ -124,114 +82,41 @@ fn invalid_meshes_do_not() {
     let (ring_points, ring_triangles) = ring();
     let square = vec![[0, 1, 2], [2, 3, 0]];
     let twice = [&SQUARE[..], &SQUARE.map(|(x, y)| (x + 0.5, y + 0.25))].concat();
-    let inside = [
-        &SQUARE[..],
-        &SQUARE.map(|(x, y)| (x / 4.0 + 1.0, y / 4.0 + 1.0)),
-    ]
-    .concat();
+    let inside = [&SQUARE[..], &SQUARE.map(|(x, y)| (x / 4.0 + 1.0, y / 4.0 + 1.0))].concat();
     let cracked = [&SQUARE[..], &[(0.0, 0.0), (4.0, 4.0)]].concat();
     let (branched, branched_triangles) = fan(9, 2.0);
     let plug = [&ring_triangles[..], &[[0, 1, 2]]].concat();
     // The ring and a square of its own vertices over the whole of it.
-    let over_ring = [
-        &ring_points[..],
-        &SQUARE.map(|(x, y)| (2.0 * x - 2.0, 2.0 * y - 2.0)),
-    ]
-    .concat();
+    let over_ring = [&ring_points[..], &SQUARE.map(|(x, y)| (2.0 * x - 2.0, 2.0 * y - 2.0))].concat();
     let table: Vec<(&str, Vec<(f64, f64)>, Triangles)> = vec![
-        (
-            "an index that does not exist",
-            SQUARE.to_vec(),
-            vec![[0, 1, 9]],
-        ),
+        ("an index that does not exist", SQUARE.to_vec(), vec![[0, 1, 9]]),
         ("a repeated corner", SQUARE.to_vec(), vec![[0, 1, 1]]),
-        (
-            "a degenerate triangle",
-            vec![(0.0, 0.0), (1.0, 1.0), (3.0, 3.0)],
-            vec![[0, 1, 2]],
-        ),
-        (
-            "not a number",
-            vec![(0.0, 0.0), (f64::NAN, 1.0), (3.0, 3.0)],
-            vec![[0, 1, 2]],
-        ),
-        (
-            "a triangle twice",
-            SQUARE.to_vec(),
-            vec![[0, 1, 2], [0, 1, 2]],
-        ),
-        (
-            "a triangle twice, turned",
-            SQUARE.to_vec(),
-            vec![[0, 1, 2], [2, 1, 0]],
-        ),
-        (
-            "three triangles at an edge",
-            SQUARE.to_vec(),
-            vec![[0, 1, 2], [2, 3, 0], [0, 1, 3]],
-        ),
-        (
-            "a fold",
-            vec![(0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (1.0, 5.0)],
-            vec![[0, 1, 2], [0, 1, 3]],
-        ),
-        (
-            "a double cover",
-            twice,
-            [square.clone(), shifted(&square, 4)].concat(),
-        ),
-        (
-            "a mesh inside another",
-            inside,
-            [square.clone(), shifted(&square, 4)].concat(),
-        ),
+        ("a degenerate triangle", vec![(0.0, 0.0), (1.0, 1.0), (3.0, 3.0)], vec![[0, 1, 2]]),
+        ("not a number", vec![(0.0, 0.0), (f64::NAN, 1.0), (3.0, 3.0)], vec![[0, 1, 2]]),
+        ("a triangle twice", SQUARE.to_vec(), vec![[0, 1, 2], [0, 1, 2]]),
+        ("a triangle twice, turned", SQUARE.to_vec(), vec![[0, 1, 2], [2, 1, 0]]),
+        ("three triangles at an edge", SQUARE.to_vec(), vec![[0, 1, 2], [2, 3, 0], [0, 1, 3]]),
+        ("a fold", vec![(0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (1.0, 5.0)], vec![[0, 1, 2], [0, 1, 3]]),
+        ("a double cover", twice, [square.clone(), shifted(&square, 4)].concat()),
+        ("a mesh inside another", inside, [square.clone(), shifted(&square, 4)].concat()),
         ("a crack", cracked, vec![[0, 1, 2], [5, 3, 4]]),
         ("a branch point", branched, branched_triangles),
-        (
-            "a hole covered by a triangle of the ring's corners",
-            ring_points,
-            plug,
-        ),
-        (
-            "a square around and over a ring",
-            over_ring,
-            [&ring_triangles[..], &shifted(&square, 8)].concat(),
-        ),
+        ("a hole covered by a triangle of the ring's corners", ring_points, plug),
+        ("a square around and over a ring", over_ring, [&ring_triangles[..], &shifted(&square, 8)].concat()),
         // The lower square is one edge long where the upper two meet in the middle of it.
         (
             "a hanging vertex",
-            vec![
-                (0.0, 0.0),
-                (4.0, 0.0),
-                (2.0, -3.0),
-                (2.0, 0.0),
-                (0.0, 3.0),
-                (4.0, 3.0),
-            ],
+            vec![(0.0, 0.0), (4.0, 0.0), (2.0, -3.0), (2.0, 0.0), (0.0, 3.0), (4.0, 3.0)],
             vec![[0, 2, 1], [0, 3, 4], [3, 1, 5], [3, 5, 4]],
         ),
         (
             "a triangle touching an edge",
-            vec![
-                (0.0, 0.0),
-                (4.0, 0.0),
-                (2.0, -3.0),
-                (2.0, 0.0),
-                (1.0, 1.0),
-                (3.0, 1.0),
-            ],
+            vec![(0.0, 0.0), (4.0, 0.0), (2.0, -3.0), (2.0, 0.0), (1.0, 1.0), (3.0, 1.0)],
             vec![[0, 2, 1], [3, 5, 4]],
         ),
         (
             "edges that overlap without a common end",
-            vec![
-                (0.0, 0.0),
-                (4.0, 0.0),
-                (2.0, -3.0),
-                (1.0, 0.0),
-                (3.0, 0.0),
-                (2.0, 1.0),
-            ],
+            vec![(0.0, 0.0), (4.0, 0.0), (2.0, -3.0), (1.0, 0.0), (3.0, 0.0), (2.0, 1.0)],
             vec![[0, 2, 1], [3, 4, 5]],
         ),
     ];
@@ -242,29 +127,16 @@ fn invalid_meshes_do_not() {
         // Neither the order of the triangles nor the place of the mesh matters.
         let backwards: Triangles = t.iter().rev().map(|&[a, b, c]| [b, c, a]).collect();
         let turned: Vec<_> = p.iter().map(|&(x, y)| (-y + 0.5, x)).collect();
-        assert_eq!(
-            run(&turned, &backwards, Claim::Valid).verdict,
-            Verdict::Violated,
-            "{name}, turned, passed"
-        );
+        assert_eq!(run(&turned, &backwards, Claim::Valid).verdict, Verdict::Violated, "{name}, turned, passed");
     }
 }
 
 #[test]
 fn orientation_names_the_clockwise() {
-    assert_eq!(
-        run(&SQUARE, &[[0, 1, 2], [2, 3, 0]], Claim::Orientation).verdict,
-        Verdict::Holds
-    );
+    assert_eq!(run(&SQUARE, &[[0, 1, 2], [2, 3, 0]], Claim::Orientation).verdict, Verdict::Holds);
     let report = run(&SQUARE, &[[0, 1, 2], [2, 0, 3]], Claim::Orientation);
-    assert_eq!(
-        (report.violations, &report.witnesses[0].triangles[..]),
-        (1, &[1][..])
-    );
-    assert_eq!(
-        run(&SQUARE, &[[0, 2, 1], [2, 0, 3]], Claim::Orientation).violations,
-        2
-    );
+    assert_eq!((report.violations, &report.witnesses[0].triangles[..]), (1, &[1][..]));
+    assert_eq!(run(&SQUARE, &[[0, 2, 1], [2, 0, 3]], Claim::Orientation).violations, 2);
 }
 
 #[test]
@@ -272,21 +144,10 @@ fn empty_circles() {
     use Verdict::*;
     let kite = [(0.0, 0.0), (4.0, 0.0), (5.0, 4.0), (0.0, 4.0)];
     // Two triangles apart: vertex 3 lies in the circle of the first, behind the border.
-    let apart = [
-        (0.0, 0.0),
-        (10.0, 0.0),
-        (5.0, 6.0),
-        (9.0, 4.0),
-        (20.0, 4.0),
-        (20.0, 20.0),
-    ];
+    let apart = [(0.0, 0.0), (10.0, 0.0), (5.0, 6.0), (9.0, 4.0), (20.0, 4.0), (20.0, 20.0)];
     let two = [[0, 1, 2], [3, 4, 5]];
     let split = |d| {
-        if d == 0 {
-            vec![[0, 1, 2], [2, 3, 0]]
-        } else {
-            vec![[0, 1, 3], [1, 2, 3]]
-        }
+        if d == 0 { vec![[0, 1, 2], [2, 3, 0]] } else { vec![[0, 1, 3], [1, 2, 3]] }
     };
     let rows: Vec<(&[(f64, f64)], Triangles, [Verdict; 3])> = vec![
         (&kite, split(1), [Holds, Holds, Holds]),
@@ -294,25 +155,17 @@ fn empty_circles() {
         (&apart, two.to_vec(), [Violated, Holds, Holds]),
     ];
     for (p, t, expected) in rows {
-        let got =
-            [Claim::Delaunay, Claim::Constrained, Claim::Canonical].map(|c| run(p, &t, c).verdict);
+        let got = [Claim::Delaunay, Claim::Constrained, Claim::Canonical].map(|c| run(p, &t, c).verdict);
         assert_eq!(got, expected, "{t:?}");
     }
     // Of the two diagonals of a square both are Delaunay and one is canonical.
     let canonical = [0, 1].map(|d| run(&SQUARE, &split(d), Claim::Canonical).verdict);
-    assert_eq!(
-        [0, 1].map(|d| run(&SQUARE, &split(d), Claim::Delaunay).verdict),
-        [Holds, Holds]
-    );
+    assert_eq!([0, 1].map(|d| run(&SQUARE, &split(d), Claim::Delaunay).verdict), [Holds, Holds]);
     assert!(canonical == [Holds, Violated] || canonical == [Violated, Holds]);
 }
 
 fn input(p: &[(f64, f64)], segments: &[[u32; 2]], holes: &[(f64, f64)]) -> Pslg {
-    let segment = |s: &[u32; 2]| Segment {
-        ends: s.map(VertexId),
-        marker: 0,
-        toggles: false,
-    };
+    let segment = |s: &[u32; 2]| Segment { ends: s.map(VertexId), marker: 0, toggles: false };
     Pslg {
         points: points(p),
         segments: segments.iter().map(segment).collect(),
@@ -323,17 +176,9 @@ fn input(p: &[(f64, f64)], segments: &[[u32; 2]], holes: &[(f64, f64)]) -> Pslg 
 
 fn conforms(p: &[(f64, f64)], triangles: &[[u32; 3]], to: &Pslg) -> ClaimReport {
     let (p, t) = (points(p), ids(triangles));
-    let subject = Subject {
-        points: &p,
-        triangles: &t,
-        ..Subject::default()
-    };
+    let subject = Subject { points: &p, triangles: &t, ..Subject::default() };
     let lines = Lines::default();
-    let options = Options {
-        claims: &[Claim::Conforming],
-        input: Some((to, &lines)),
-        ..Options::default()
-    };
+    let options = Options { claims: &[Claim::Conforming], input: Some((to, &lines)), ..Options::default() };
     audit(&subject, &options).claims.remove(0)
 }
 
@@ -349,102 +194,22 @@ fn conforming_accepts_and_rejects() {
     let square = [[0, 1, 2], [2, 3, 0]];
     let other = [[0, 1, 3], [1, 2, 3]];
     let hole = (2.0, 2.0);
-    let outside = |p: &[(f64, f64)], s: &[[u32; 2]]| {
-        input(&[&SQUARE[..], p].concat(), &[&SIDES[..], s].concat(), &[])
-    };
+    let outside = |p: &[(f64, f64)], s: &[[u32; 2]]| input(&[&SQUARE[..], p].concat(), &[&SIDES[..], s].concat(), &[]);
     let tail = [(6.0, 5.0), (7.0, 5.0), (6.0, 7.0)];
     let rows: Vec<(&str, &[(f64, f64)], &[[u32; 3]], Pslg, Verdict)> = vec![
-        (
-            "a square",
-            &SQUARE,
-            &square,
-            input(&SQUARE, &SIDES, &[]),
-            Holds,
-        ),
-        (
-            "its diagonal",
-            &SQUARE,
-            &square,
-            input(&SQUARE, &[&SIDES[..], &[[2, 0]]].concat(), &[]),
-            Holds,
-        ),
-        (
-            "the other diagonal",
-            &SQUARE,
-            &other,
-            input(&SQUARE, &[&SIDES[..], &[[2, 0]]].concat(), &[]),
-            Violated,
-        ),
-        (
-            "half of it",
-            &SQUARE,
-            &square[..1],
-            input(&SQUARE, &SIDES, &[]),
-            Violated,
-        ),
-        (
-            "a vertex inside is missing",
-            &SQUARE,
-            &square,
-            outside(&[(1.0, 2.0)], &[]),
-            Violated,
-        ),
-        (
-            "a vertex on the border is missing",
-            &SQUARE,
-            &square,
-            outside(&[(4.0, 2.0)], &[]),
-            Violated,
-        ),
-        (
-            "a vertex outside",
-            &SQUARE,
-            &square,
-            outside(&[(6.0, 2.0)], &[]),
-            Holds,
-        ),
-        (
-            "a tail outside",
-            &SQUARE,
-            &square,
-            outside(&tail[..2], &[[2, 4], [4, 5]]),
-            Holds,
-        ),
-        (
-            "a closed part left out",
-            &SQUARE,
-            &square,
-            outside(&tail, &[[2, 4], [4, 5], [5, 6], [6, 4]]),
-            Violated,
-        ),
-        (
-            "a ring and its hole",
-            &ring_points,
-            &ring_triangles,
-            input(&ring_points, &both, &[hole]),
-            Holds,
-        ),
-        (
-            "a hole nobody asked for",
-            &ring_points,
-            &ring_triangles,
-            input(&ring_points, &both, &[]),
-            Violated,
-        ),
-        (
-            "a hole that is covered",
-            &ring_points,
-            &full,
-            input(&ring_points, &both, &[hole]),
-            Violated,
-        ),
-        (
-            "a face inside",
-            &ring_points,
-            &full,
-            input(&ring_points, &both, &[]),
-            Holds,
-        ),
+        ("a square", &SQUARE, &square, input(&SQUARE, &SIDES, &[]), Holds),
+        ("its diagonal", &SQUARE, &square, input(&SQUARE, &[&SIDES[..], &[[2, 0]]].concat(), &[]), Holds),
+        ("the other diagonal", &SQUARE, &other, input(&SQUARE, &[&SIDES[..], &[[2, 0]]].concat(), &[]), Violated),
+        ("half of it", &SQUARE, &square[..1], input(&SQUARE, &SIDES, &[]), Violated),
+        ("a vertex inside is missing", &SQUARE, &square, outside(&[(1.0, 2.0)], &[]), Violated),
+        ("a vertex on the border is missing", &SQUARE, &square, outside(&[(4.0, 2.0)], &[]), Violated),
+        ("a vertex outside", &SQUARE, &square, outside(&[(6.0, 2.0)], &[]), Holds),
+        ("a tail outside", &SQUARE, &square, outside(&tail[..2], &[[2, 4], [4, 5]]), Holds),
+        ("a closed part left out", &SQUARE, &square, outside(&tail, &[[2, 4], [4, 5], [5, 6], [6, 4]]), Violated),
+        ("a ring and its hole", &ring_points, &ring_triangles, input(&ring_points, &both, &[hole]), Holds),
+        ("a hole nobody asked for", &ring_points, &ring_triangles, input(&ring_points, &both, &[]), Violated),
+        ("a hole that is covered", &ring_points, &full, input(&ring_points, &both, &[hole]), Violated),
+        ("a face inside", &ring_points, &full, input(&ring_points, &both, &[]), Holds),
     ];
     for (name, p, t, to, expected) in rows {
         let report = conforms(p, t, &to);
@@ -458,18 +223,11 @@ fn chains_are_monotone_and_near() {
     let ulp = 4f64.next_up() - 4.0;
     let split = |x: f64, y: f64| {
         let p = [&SQUARE[..], &[(x, y * ulp)]].concat();
-        conforms(
-            &p,
-            &[[0, 4, 3], [4, 1, 2], [4, 2, 3]],
-            &input(&SQUARE, &SIDES, &[]),
-        )
+        conforms(&p, &[[0, 4, 3], [4, 1, 2], [4, 2, 3]], &input(&SQUARE, &SIDES, &[]))
     };
-    for (y, expected) in [
-        (0.0, Verdict::Holds),
-        (2.0, Verdict::Holds),
-        (-2.0, Verdict::Holds),
-        (2.5, Verdict::Violated),
-    ] {
+    for (y, expected) in
+        [(0.0, Verdict::Holds), (2.0, Verdict::Holds), (-2.0, Verdict::Holds), (2.5, Verdict::Violated)]
+    {
         let report = split(2.0, y);
         assert_eq!(report.verdict, expected, "{y}");
         if expected == Verdict::Holds {
@@ -478,11 +236,7 @@ fn chains_are_monotone_and_near() {
     }
     // A vertex beyond the end is on the line, but no chain goes there and back.
     let p = [&SQUARE[..], &[(5.0, 0.0)]].concat();
-    let beyond = conforms(
-        &p,
-        &[[0, 4, 3], [4, 1, 3], [1, 2, 3]],
-        &input(&SQUARE, &SIDES, &[]),
-    );
+    let beyond = conforms(&p, &[[0, 4, 3], [4, 1, 3], [1, 2, 3]], &input(&SQUARE, &SIDES, &[]));
     assert_eq!(beyond.verdict, Verdict::Violated);
 }
 
@@ -493,54 +247,24 @@ fn constraints_hide_vertices() {
     let (p, t) = (points(&kite), ids(&[[0, 1, 2], [2, 3, 0]]));
     let edges = [[VertexId(2), VertexId(0)]];
     let verdict = |edges: &[[VertexId; 2]], attributes: &[f64]| {
-        let subject = Subject {
-            points: &p,
-            triangles: &t,
-            edges,
-            triangle_attributes: attributes,
-            ..Subject::default()
-        };
-        audit(
-            &subject,
-            &Options {
-                claims: &[Claim::Constrained],
-                ..Options::default()
-            },
-        )
-        .claims[0]
-            .verdict
+        let subject =
+            Subject { points: &p, triangles: &t, edges, triangle_attributes: attributes, ..Subject::default() };
+        audit(&subject, &Options { claims: &[Claim::Constrained], ..Options::default() }).claims[0].verdict
     };
     assert_eq!(verdict(&[], &[]), Verdict::Violated);
     assert_eq!(verdict(&edges, &[]), Verdict::Holds);
     assert_eq!(verdict(&[], &[1.0, 2.0]), Verdict::Holds);
     assert_eq!(verdict(&[], &[1.0, 1.0]), Verdict::Violated);
     // Constraints told by the file stand for all: the interface is then none.
-    assert_eq!(
-        verdict(&[[VertexId(0), VertexId(1)]], &[1.0, 2.0]),
-        Verdict::Violated
-    );
+    assert_eq!(verdict(&[[VertexId(0), VertexId(1)]], &[1.0, 2.0]), Verdict::Violated);
     let with_input = |segments: &[[u32; 2]]| {
-        let graph = Pslg {
-            fill: Fill::Convex,
-            ..input(&kite, segments, &[])
-        };
-        let subject = Subject {
-            points: &p,
-            triangles: &t,
-            ..Subject::default()
-        };
+        let graph = Pslg { fill: Fill::Convex, ..input(&kite, segments, &[]) };
+        let subject = Subject { points: &p, triangles: &t, ..Subject::default() };
         let lines = Lines::default();
-        let options = Options {
-            claims: &[Claim::Constrained],
-            input: Some((&graph, &lines)),
-            ..Options::default()
-        };
+        let options = Options { claims: &[Claim::Constrained], input: Some((&graph, &lines)), ..Options::default() };
         audit(&subject, &options).claims[0].verdict
     };
-    assert_eq!(
-        [with_input(&[]), with_input(&[[0, 2]])],
-        [Verdict::Violated, Verdict::Holds]
-    );
+    assert_eq!([with_input(&[]), with_input(&[[0, 2]])], [Verdict::Violated, Verdict::Holds]);
 }
 
 #[test]
@@ -548,32 +272,18 @@ fn topology_counts() {
     let (p, t) = ring();
     let figures = run(&p, &t, Claim::Topology).figures;
     let figure = |name| figures.iter().find(|f| f.0 == name).map(|f| f.1);
-    for (name, value) in [
-        ("euler_characteristic", 0.0),
-        ("holes", 1.0),
-        ("components", 1.0),
-        ("border_loops", 2.0),
-        ("edges", 16.0),
-    ] {
+    for (name, value) in
+        [("euler_characteristic", 0.0), ("holes", 1.0), ("components", 1.0), ("border_loops", 2.0), ("edges", 16.0)]
+    {
         assert_eq!(figure(name), Some(value), "{name}");
     }
     // Three triangles that meet in pairs at vertices enclose a hole, and are three by edges.
-    let p = [
-        (0.0, 0.0),
-        (4.0, 0.0),
-        (2.0, 3.0),
-        (2.0, -1.0),
-        (4.0, 3.0),
-        (0.0, 3.0),
-    ];
+    let p = [(0.0, 0.0), (4.0, 0.0), (2.0, 3.0), (2.0, -1.0), (4.0, 3.0), (0.0, 3.0)];
     let figures = run(&p, &[[0, 3, 1], [1, 4, 2], [2, 5, 0]], Claim::Topology).figures;
     let figure = |name| figures.iter().find(|f| f.0 == name).map(|f| f.1);
-    for (name, value) in [
-        ("holes", 1.0),
-        ("components", 1.0),
-        ("edge_connected_components", 3.0),
-        ("pinched_vertices", 3.0),
-    ] {
+    for (name, value) in
+        [("holes", 1.0), ("components", 1.0), ("edge_connected_components", 3.0), ("pinched_vertices", 3.0)]
+    {
         assert_eq!(figure(name), Some(value), "{name}");
     }
 }
@@ -581,13 +291,7 @@ fn topology_counts() {
 #[test]
 fn quality_of_a_right_triangle() {
     let report = run(&SQUARE, &[[0, 1, 2], [2, 3, 0]], Claim::Quality);
-    let figure = |name| {
-        report
-            .figures
-            .iter()
-            .find(|f| f.0 == name)
-            .map_or(f64::NAN, |f| f.1)
-    };
+    let figure = |name| report.figures.iter().find(|f| f.0 == name).map_or(f64::NAN, |f| f.1);
     assert!((figure("min_angle") - 45.0).abs() < 1e-9 && (figure("max_angle") - 90.0).abs() < 1e-9);
     assert!((figure("max_radius_edge") - 0.5f64.sqrt()).abs() < 1e-9);
     assert_eq!((figure("min_area"), figure("triangles")), (8.0, 2.0));
@@ -597,22 +301,10 @@ fn quality_of_a_right_triangle() {
 fn claimed_quality_is_exact() {
     // Half squares have r^2 / l^2 = 1/2 exactly; a tie is skinny.
     let (p, t) = (points(&SQUARE), ids(&[[0, 1, 2], [2, 3, 0]]));
-    let subject = Subject {
-        points: &p,
-        triangles: &t,
-        ..Subject::default()
-    };
+    let subject = Subject { points: &p, triangles: &t, ..Subject::default() };
     for (rho2, expected) in [(0.5, 2), (0.5f64.next_up(), 0), (0.5f64.next_down(), 2)] {
-        let options = Options {
-            claims: &[Claim::Quality],
-            rho2: Some(rho2),
-            ..Options::default()
-        };
-        assert_eq!(
-            audit(&subject, &options).claims[0].violations,
-            expected,
-            "{rho2:e}"
-        );
+        let options = Options { claims: &[Claim::Quality], rho2: Some(rho2), ..Options::default() };
+        assert_eq!(audit(&subject, &options).claims[0].violations, expected, "{rho2:e}");
     }
 }
 
@@ -625,15 +317,9 @@ fn meet_properly(p: &[(i64, i64)], s: [u32; 3], t: [u32; 3]) -> bool {
     };
     let sides = |t: [u32; 3]| [(t[0], t[1], t[2]), (t[1], t[2], t[0]), (t[2], t[0], t[1])];
     let separates = |s: [u32; 3], t: [u32; 3]| {
-        sides(s)
-            .iter()
-            .any(|&(a, b, c)| t.iter().all(|&v| turn(a, b, v) * turn(a, b, c) <= 0))
+        sides(s).iter().any(|&(a, b, c)| t.iter().all(|&v| turn(a, b, v) * turn(a, b, c) <= 0))
     };
-    let holds = |t: [u32; 3], v: u32| {
-        sides(t)
-            .iter()
-            .all(|&(a, b, c)| turn(a, b, v) * turn(a, b, c) >= 0)
-    };
+    let holds = |t: [u32; 3], v: u32| sides(t).iter().all(|&(a, b, c)| turn(a, b, v) * turn(a, b, c) >= 0);
     let apart = |s: [u32; 3], t: [u32; 3]| s.iter().all(|&v| t.contains(&v) || !holds(t, v));
     (separates(s, t) || separates(t, s)) && apart(s, t) && apart(t, s)
 }

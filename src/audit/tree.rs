@@ -23,15 +23,9 @@ const LEAF: usize = 6;
 impl Tree {
     /// A tree over `count` items with the boxes spanned by two points each.
     pub fn new(count: usize, corners: impl Fn(usize) -> [Point2; 2]) -> Self {
-        let boxes: Vec<[Point2; 2]> = (0..count)
-            .map(&corners)
-            .map(|[a, b]| [a.min(b), a.max(b)])
-            .collect();
+        let boxes: Vec<[Point2; 2]> = (0..count).map(&corners).map(|[a, b]| [a.min(b), a.max(b)]).collect();
         let mut items: Vec<u32> = (0..count as u32).collect();
-        let mut tree = Tree {
-            nodes: Vec::new(),
-            items: Vec::new(),
-        };
+        let mut tree = Tree { nodes: Vec::new(), items: Vec::new() };
         if count > 0 {
             tree.build(&boxes, &mut items, 0);
         }
@@ -41,20 +35,12 @@ impl Tree {
 
     /// Depth is logarithmic: each child takes half of the items.
     fn build(&mut self, boxes: &[[Point2; 2]], items: &mut [u32], from: u32) {
-        let (low, high) = items.iter().fold(
-            (Point2::INFINITY, Point2::NEG_INFINITY),
-            |(low, high), &i| {
-                let [a, b] = boxes[i as usize];
-                (low.min(a), high.max(b))
-            },
-        );
-        let node = self.nodes.len();
-        self.nodes.push(Node {
-            low,
-            high,
-            items: (from, from + items.len() as u32),
-            second: None,
+        let (low, high) = items.iter().fold((Point2::INFINITY, Point2::NEG_INFINITY), |(low, high), &i| {
+            let [a, b] = boxes[i as usize];
+            (low.min(a), high.max(b))
         });
+        let node = self.nodes.len();
+        self.nodes.push(Node { low, high, items: (from, from + items.len() as u32), second: None });
         if items.len() <= LEAF {
             return;
         }
@@ -63,11 +49,7 @@ impl Tree {
         items.select_nth_unstable_by(half, |&i, &j| {
             let key = |i: u32| {
                 let [a, b] = boxes[i as usize];
-                if extent.x >= extent.y {
-                    0.5 * a.x + 0.5 * b.x
-                } else {
-                    0.5 * a.y + 0.5 * b.y
-                }
+                if extent.x >= extent.y { 0.5 * a.x + 0.5 * b.x } else { 0.5 * a.y + 0.5 * b.y }
             };
             key(i).total_cmp(&key(j))
         });
@@ -79,11 +61,7 @@ impl Tree {
 
     /// Visits the items of leaves all of whose boxes `enter` admits, until `item` says stop.
     pub fn visit(&self, enter: impl Fn(Point2, Point2) -> bool, mut item: impl FnMut(u32) -> bool) {
-        let mut stack = if self.nodes.is_empty() {
-            vec![]
-        } else {
-            vec![0u32]
-        };
+        let mut stack = if self.nodes.is_empty() { vec![] } else { vec![0u32] };
         while let Some(i) = stack.pop() {
             let node = &self.nodes[i as usize];
             if !enter(node.low, node.high) {
@@ -93,10 +71,7 @@ impl Tree {
                 Some(second) => stack.extend([second, i + 1]),
                 None => {
                     let (from, to) = node.items;
-                    if !self.items[from as usize..to as usize]
-                        .iter()
-                        .all(|&i| item(i))
-                    {
+                    if !self.items[from as usize..to as usize].iter().all(|&i| item(i)) {
                         return;
                     }
                 }

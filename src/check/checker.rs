@@ -26,10 +26,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Options {
-        Options {
-            strict: false,
-            digests: true,
-        }
+        Options { strict: false, digests: true }
     }
 }
 
@@ -113,10 +110,7 @@ impl Checker {
         if self.rejection.is_none() {
             let place = match record {
                 Record::Header(_) => Place::Header,
-                Record::Vertex { .. }
-                | Record::Segment(_)
-                | Record::Hole(_)
-                | Record::Region(_) => Place::Domain,
+                Record::Vertex { .. } | Record::Segment(_) | Record::Hole(_) | Record::Region(_) => Place::Domain,
                 Record::Start { .. } | Record::Triangle(_) => Place::Start,
                 Record::Event(_) => Place::Event(self.events),
                 Record::End(_) => Place::End,
@@ -124,9 +118,7 @@ impl Checker {
             if let Err(b) = self.take(record) {
                 // A removal is judged when its split comes; the replay knows its number.
                 let place = match (&self.replay, place) {
-                    (Some(replay), Place::Event(_)) if self.stage == Stage::Events => {
-                        Place::Event(replay.event)
-                    }
+                    (Some(replay), Place::Event(_)) if self.stage == Stage::Events => Place::Event(replay.event),
                     _ => place,
                 };
                 self.rejection = Some(placed(b, place));
@@ -141,12 +133,7 @@ impl Checker {
             Some(replay) => (&replay.mesh, &replay.ledger.segments),
             None => (&self.mesh, &self.domain.segments),
         };
-        State {
-            mesh,
-            exponent: self.scale.exponent,
-            segments,
-            regions: &self.domain.regions,
-        }
+        State { mesh, exponent: self.scale.exponent, segments, regions: &self.domain.regions }
     }
 
     /// The sectors of the input inside the region.
@@ -169,10 +156,7 @@ impl Checker {
         }
         self.unchecked.sort_unstable_by_key(|u| (u.rule, u.reason));
         self.unchecked.dedup();
-        Verdict::Accepted {
-            events: self.events,
-            unchecked: self.unchecked,
-        }
+        Verdict::Accepted { events: self.events, unchecked: self.unchecked }
     }
 
     fn take(&mut self, record: &Record) -> Checked {
@@ -187,25 +171,19 @@ impl Checker {
             }
             Record::Vertex { at, .. } => {
                 self.advance(Stage::Vertices, Stage::Vertices)?;
-                ensure(
-                    at.x.is_finite() && at.y.is_finite(),
-                    Rule::Coordinate,
-                    || ("a finite point", format!("{at:?}")),
-                )?;
-                ensure(self.points.len() < NONE as usize - 1, Rule::Domain, || {
-                    ("fewer than 2^32 vertices", "more")
+                ensure(at.x.is_finite() && at.y.is_finite(), Rule::Coordinate, || {
+                    ("a finite point", format!("{at:?}"))
                 })?;
+                ensure(self.points.len() < NONE as usize - 1, Rule::Domain, || ("fewer than 2^32 vertices", "more"))?;
                 self.points.push(*at);
                 Ok(())
             }
             Record::Segment(segment) => {
                 self.advance(Stage::Vertices, Stage::Segments)?;
                 let known = segment.ends.iter().all(|v| v.index() < self.points.len());
-                ensure(
-                    known && segment.ends[0] != segment.ends[1],
-                    Rule::Domain,
-                    || ("two vertices of the input", format!("{:?}", segment.ends)),
-                )?;
+                ensure(known && segment.ends[0] != segment.ends[1], Rule::Domain, || {
+                    ("two vertices of the input", format!("{:?}", segment.ends))
+                })?;
                 self.domain.segments.push(*segment);
                 Ok(())
             }
@@ -217,9 +195,7 @@ impl Checker {
             Record::Region(region) => {
                 self.advance(Stage::Vertices, Stage::Regions)?;
                 let bound = region.max_area.is_none_or(|a| a.is_finite() && a > 0.0);
-                ensure(bound, Rule::Domain, || {
-                    ("a positive area bound", format!("{:?}", region.max_area))
-                })?;
+                ensure(bound, Rule::Domain, || ("a positive area bound", format!("{:?}", region.max_area)))?;
                 self.domain.regions.push(*region);
                 Ok(())
             }
@@ -228,20 +204,14 @@ impl Checker {
                 self.advance(Stage::Vertices, Stage::Start)?;
                 self.announced = *triangles;
                 self.scale_input()?;
-                ensure(*triangles > 0, Rule::Triangulation, || {
-                    ("a triangle", "none")
-                })
+                ensure(*triangles > 0, Rule::Triangulation, || ("a triangle", "none"))
             }
             Record::Triangle(t) => {
                 self.advance(Stage::Start, Stage::Start)?;
                 let t = numbers(*t);
                 start::add_triangle(&mut self.mesh, t, self.last)?;
                 self.last = Some(t);
-                if self.mesh.slot_count() == self.announced as usize {
-                    self.begin()
-                } else {
-                    Ok(())
-                }
+                if self.mesh.slot_count() == self.announced as usize { self.begin() } else { Ok(()) }
             }
             Record::Event(event) => {
                 self.advance(Stage::Events, Stage::Events)?;
@@ -272,29 +242,18 @@ impl Checker {
     /// That the stage a record opens is not yet open.
     fn once(&self, opened: Stage) -> Checked {
         ensure(self.stage < opened, Rule::Stream, || {
-            (
-                format!("one record that opens {opened:?}"),
-                "another".to_string(),
-            )
+            (format!("one record that opens {opened:?}"), "another".to_string())
         })
     }
 
     /// Finds the power of two, and brings the input to it.
     fn scale_input(&mut self) -> Checked {
-        let largest = self
-            .points
-            .iter()
-            .flat_map(|p| [p.x.abs(), p.y.abs()])
-            .fold(0.0, f64::max);
-        ensure(
-            (power_of_two(-870)..power_of_two(870)).contains(&largest),
-            Rule::Domain,
-            || ("a size within 2^-870..2^870", format!("{largest:e}")),
-        )?;
+        let largest = self.points.iter().flat_map(|p| [p.x.abs(), p.y.abs()]).fold(0.0, f64::max);
+        ensure((power_of_two(-870)..power_of_two(870)).contains(&largest), Rule::Domain, || {
+            ("a size within 2^-870..2^870", format!("{largest:e}"))
+        })?;
         // In [1/2, 1): the exponent of a normal f64, less the bias, plus one.
-        self.scale = Scale {
-            exponent: ((largest.to_bits() >> 52) as i32) - 1022,
-        };
+        self.scale = Scale { exponent: ((largest.to_bits() >> 52) as i32) - 1022 };
         for i in 0..self.points.len() {
             let at = self.scale.place(self.points[i])?;
             self.mesh.add_vertex(at, Kind::Input);
@@ -302,21 +261,10 @@ impl Checker {
         let down = power_of_two(-self.scale.exponent);
         let scaled = |p: Point2| Point2::new(p.x * down, p.y * down);
         self.domain.holes.iter_mut().for_each(|h| *h = scaled(*h));
-        self.domain.regions.iter_mut().for_each(|r| {
-            *r = Region {
-                seed: scaled(r.seed),
-                ..*r
-            }
-        });
-        let seeds = self
-            .domain
-            .holes
-            .iter()
-            .chain(self.domain.regions.iter().map(|r| &r.seed));
+        self.domain.regions.iter_mut().for_each(|r| *r = Region { seed: scaled(r.seed), ..*r });
+        let seeds = self.domain.holes.iter().chain(self.domain.regions.iter().map(|r| &r.seed));
         let finite = |p: &Point2| p.x.is_finite() && p.y.is_finite();
-        ensure({ seeds }.all(finite), Rule::Domain, || {
-            ("finite seeds", "one that is not")
-        })
+        ensure({ seeds }.all(finite), Rule::Domain, || ("finite seeds", "one that is not"))
     }
 
     /// The initial triangulation is complete: proves it, carves it, and decides the level.
@@ -324,12 +272,7 @@ impl Checker {
         self.stage = Stage::Events;
         start::check_start(&mut self.mesh, &self.domain.segments)?;
         // A plain triangulation keeps the whole hull.
-        let Some(Header {
-            algorithm: Algorithm::Gcdr(parameters),
-            level,
-            ..
-        }) = &self.header
-        else {
+        let Some(Header { algorithm: Algorithm::Gcdr(parameters), level, .. }) = &self.header else {
             return Ok(());
         };
         let mut search = Search::default();
@@ -340,9 +283,7 @@ impl Checker {
         let regions = Regions::new(parameters, level);
         self.sectors = promise::sectors(&self.mesh);
         let own = promise::level(parameters, regions.nominal, &self.mesh, &self.sectors);
-        ensure(level == own, Rule::Level, || {
-            (format!("{own:?}"), format!("{level:?}"))
-        })?;
+        ensure(level == own, Rule::Level, || (format!("{own:?}"), format!("{level:?}")))?;
         let mesh = std::mem::take(&mut self.mesh);
         let apexes = promise::apexes(&mesh, &self.sectors);
         let segments = std::mem::take(&mut self.domain.segments);
@@ -356,30 +297,21 @@ impl Checker {
 
     fn event(&mut self, event: &Event) -> Checked {
         let Some(replay) = &mut self.replay else {
-            return broken(
-                Rule::Stream,
-                "no events in a plain triangulation",
-                format!("{event:?}"),
-            );
+            return broken(Rule::Stream, "no events in a plain triangulation", format!("{event:?}"));
         };
         replay.event = self.events;
         if let Event::Skip { reason, .. } = event
             && !self.options.strict
         {
             let left = match reason {
-                SkipReason::Resolution => {
-                    Some("why a point cannot be represented is proved by strict verification")
+                SkipReason::Resolution => Some("why a point cannot be represented is proved by strict verification"),
+                SkipReason::SplitLimit { .. } => {
+                    Some("which segment a skipped triangle would split is proved by strict verification")
                 }
-                SkipReason::SplitLimit { .. } => Some(
-                    "which segment a skipped triangle would split is proved by strict verification",
-                ),
                 SkipReason::InputAngle { .. } => None,
             };
             if let Some(reason) = left.filter(|&l| self.unchecked.iter().all(|u| u.reason != l)) {
-                self.unchecked.push(Unchecked {
-                    rule: Rule::Skip,
-                    reason,
-                });
+                self.unchecked.push(Unchecked { rule: Rule::Skip, reason });
             }
         }
         if let Some(strict) = &mut self.strict {
@@ -409,22 +341,14 @@ impl Checker {
                 claims::check_end(replay, end)?;
                 let level = effective_level(replay, &self.header, &self.sectors);
                 ensure(end.level_effective == Some(level), Rule::Level, || {
-                    (
-                        format!("effective level {level:?}"),
-                        format!("{:?}", end.level_effective),
-                    )
+                    (format!("effective level {level:?}"), format!("{:?}", end.level_effective))
                 })?;
                 let p = &replay.ledger.parameters;
                 if p.size_function {
-                    self.unchecked.push(Unchecked {
-                        rule: Rule::F3,
-                        reason: "closure: sizes are those a function returned",
-                    });
+                    self.unchecked
+                        .push(Unchecked { rule: Rule::F3, reason: "closure: sizes are those a function returned" });
                 }
-                if p.choice_a == DiskChoice::User
-                    || p.choice_b == Choice::User
-                    || p.choice_c == Choice::User
-                {
+                if p.choice_a == DiskChoice::User || p.choice_b == Choice::User || p.choice_c == Choice::User {
                     self.unchecked.push(Unchecked {
                         rule: Rule::Choice,
                         reason: "closure: points are those a function returned",
@@ -438,19 +362,13 @@ impl Checker {
                 ensure(end.level_effective.is_none(), Rule::Level, || {
                     ("no level", format!("{:?}", end.level_effective))
                 })?;
-                claims::check_chains(
-                    &self.mesh,
-                    |s| self.domain.segments[s as usize].ends.map(|v| v.0),
-                    None,
-                )?;
+                claims::check_chains(&self.mesh, |s| self.domain.segments[s as usize].ends.map(|v| v.0), None)?;
                 &self.mesh
             }
         };
         if self.options.digests {
             let own = claims::mesh_digest(mesh, |v| at(mesh, v));
-            ensure(end.mesh == own, Rule::Digest, || {
-                (own.clone(), end.mesh.clone())
-            })?;
+            ensure(end.mesh == own, Rule::Digest, || (own.clone(), end.mesh.clone()))?;
         }
         Ok(())
     }
@@ -458,20 +376,12 @@ impl Checker {
 
 /// The level that the stored points have in effect. Source: `docs/trace-format.md`.
 fn effective_level(replay: &Replay, header: &Option<Header>, sectors: &[Sector]) -> Level {
-    let nominal = header
-        .as_ref()
-        .and_then(|h| h.level)
-        .unwrap_or(Level::Outside);
+    let nominal = header.as_ref().and_then(|h| h.level).unwrap_or(Level::Outside);
     let regions = &replay.ledger.regions;
     if nominal == Level::Outside || !regions.left_nominal {
         nominal
     } else if !regions.left_slack {
-        promise::level(
-            &replay.ledger.parameters,
-            regions.slack,
-            &replay.mesh,
-            sectors,
-        )
+        promise::level(&replay.ledger.parameters, regions.slack, &replay.mesh, sectors)
     } else {
         Level::Outside
     }
@@ -481,10 +391,7 @@ fn effective_level(replay: &Replay, header: &Option<Header>, sectors: &[Sector])
 fn check_header(header: &Header) -> Checked {
     let Algorithm::Gcdr(p) = &header.algorithm else {
         return ensure(header.level.is_none(), Rule::Header, || {
-            (
-                "no level for a plain triangulation",
-                format!("{:?}", header.level),
-            )
+            ("no level for a plain triangulation", format!("{:?}", header.level))
         });
     };
     ensure(header.level.is_some(), Rule::Header, || ("a level", "none"))?;
@@ -494,31 +401,18 @@ fn check_header(header: &Header) -> Checked {
         && [p.d1, p.d2, p.mu].into_iter().all(fraction)
         && p.kappa.is_none_or(positive)
         && p.max_area.is_none_or(positive);
-    ensure(sane, Rule::Header, || {
-        (
-            "rho2 > 0, d1, d2, mu in (0, 1], positive bounds",
-            format!("{p:?}"),
-        )
-    })?;
+    ensure(sane, Rule::Header, || ("rho2 > 0, d1, d2, mu in (0, 1], positive bounds", format!("{p:?}")))?;
     check_optional(p)
 }
 
 fn check_optional(p: &GcdrParameters) -> Checked {
-    let offcenter = matches!(
-        p.choice_a,
-        DiskChoice::Offcenter | DiskChoice::ClampedOffcenter
-    );
-    let extreme =
-        p.choice_a == DiskChoice::Extreme || [p.choice_b, p.choice_c].contains(&Choice::Extreme);
+    let offcenter = matches!(p.choice_a, DiskChoice::Offcenter | DiskChoice::ClampedOffcenter);
+    let extreme = p.choice_a == DiskChoice::Extreme || [p.choice_b, p.choice_c].contains(&Choice::Extreme);
     let seeded = extreme && p.extreme == Some(crate::model::VertexOfTriangle::Seeded);
-    let random =
-        p.choice_a == DiskChoice::Random || [p.choice_b, p.choice_c].contains(&Choice::Random);
+    let random = p.choice_a == DiskChoice::Random || [p.choice_b, p.choice_c].contains(&Choice::Random);
     let expected = [offcenter, extreme, seeded || random];
     let found = [p.kappa.is_some(), p.extreme.is_some(), p.seed.is_some()];
     ensure(expected == found, Rule::Header, || {
-        (
-            format!("kappa, extreme, seed present: {expected:?}"),
-            format!("{found:?}"),
-        )
+        (format!("kappa, extreme, seed present: {expected:?}"), format!("{found:?}"))
     })
 }

@@ -11,17 +11,9 @@ use crate::trace::{Counts, End, Outcome};
 /// Proves the claims of the end record of a refinement.
 pub fn check_end(replay: &Replay, end: &End) -> Checked {
     if let Some(first) = replay.first_waiting() {
-        return broken(
-            Rule::Removal,
-            format!("the split that removal {first} is for"),
-            "the end",
-        );
+        return broken(Rule::Removal, format!("the split that removal {first} is for"), "the end");
     }
-    check_chains(
-        &replay.mesh,
-        |s| replay.ledger.segments[s as usize].ends.map(|v| v.0),
-        Some(&replay.ledger.splits),
-    )?;
+    check_chains(&replay.mesh, |s| replay.ledger.segments[s as usize].ends.map(|v| v.0), Some(&replay.ledger.splits))?;
     let mut unmet = 0;
     for t in replay.mesh.triangles() {
         let facts = replay.mesh.facts(t);
@@ -29,25 +21,14 @@ pub fn check_end(replay: &Replay, end: &End) -> Checked {
         if end.outcome == Outcome::Stopped {
             continue;
         }
-        let skinny = !facts.skipped_skinny
-            && is_skinny(replay.mesh.places(t), replay.ledger.parameters.rho2);
+        let skinny = !facts.skipped_skinny && is_skinny(replay.mesh.places(t), replay.ledger.parameters.rho2);
         let large = !facts.skipped_oversized && replay.is_too_large(t);
         ensure(!skinny && !large, Rule::F3, || {
-            (
-                "no bad triangle left unlisted",
-                format!("{:?}", canonical(replay.mesh.corners(t))),
-            )
+            ("no bad triangle left unlisted", format!("{:?}", canonical(replay.mesh.corners(t))))
         })?;
     }
     check_outcome(end, unmet)?;
-    check_counts(
-        end,
-        &replay.mesh,
-        Counts {
-            unmet,
-            ..replay.ledger.tally
-        },
-    )?;
+    check_counts(end, &replay.mesh, Counts { unmet, ..replay.ledger.tally })?;
     Ok(())
 }
 
@@ -58,36 +39,17 @@ pub fn check_outcome(end: &End, unmet: u32) -> Checked {
         _ if unmet > 0 => Outcome::Holey,
         _ => Outcome::Complete,
     };
-    ensure(end.outcome == expected, Rule::Outcome, || {
-        (format!("{expected:?}"), format!("{:?}", end.outcome))
-    })?;
-    ensure(
-        end.stop_reason.is_some() == (end.outcome == Outcome::Stopped),
-        Rule::Outcome,
-        || {
-            (
-                "a stop reason exactly if stopped",
-                format!("{:?} with {:?}", end.outcome, end.stop_reason),
-            )
-        },
-    )
+    ensure(end.outcome == expected, Rule::Outcome, || (format!("{expected:?}"), format!("{:?}", end.outcome)))?;
+    ensure(end.stop_reason.is_some() == (end.outcome == Outcome::Stopped), Rule::Outcome, || {
+        ("a stop reason exactly if stopped", format!("{:?} with {:?}", end.outcome, end.stop_reason))
+    })
 }
 
 /// Counts of the mesh and of the events.
 pub fn check_counts(end: &End, mesh: &Complex, tally: Counts) -> Checked {
-    let vertices = mesh
-        .vertices
-        .iter()
-        .filter(|v| v.kind != Kind::Deleted)
-        .count() as u32;
-    let expected = Counts {
-        vertices,
-        triangles: mesh.triangles().count() as u32,
-        ..tally
-    };
-    ensure(end.counts == expected, Rule::Counts, || {
-        (format!("{expected:?}"), format!("{:?}", end.counts))
-    })
+    let vertices = mesh.vertices.iter().filter(|v| v.kind != Kind::Deleted).count() as u32;
+    let expected = Counts { vertices, triangles: mesh.triangles().count() as u32, ..tally };
+    ensure(end.counts == expected, Rule::Counts, || (format!("{expected:?}"), format!("{:?}", end.counts)))
 }
 
 /// Every constrained edge of the region, once: its ends, the smaller first, and its segment.
@@ -106,11 +68,7 @@ pub(super) fn subsegments(mesh: &Complex) -> Vec<[u32; 3]> {
 }
 
 /// Each input segment of the region is one chain of subsegments between its ends, over vertices labelled with it.
-pub fn check_chains(
-    mesh: &Complex,
-    ends: impl Fn(u32) -> [u32; 2],
-    splits: Option<&[u32]>,
-) -> Checked {
+pub fn check_chains(mesh: &Complex, ends: impl Fn(u32) -> [u32; 2], splits: Option<&[u32]>) -> Checked {
     let mut directed: Vec<[u32; 3]> = Vec::new();
     for [u, v, s] in subsegments(mesh) {
         directed.extend([[s, u, v], [s, v, u]]);
@@ -122,20 +80,12 @@ pub fn check_chains(
         let (mut before, mut here, mut steps) = (NONE, first, 0);
         while here != last && steps < chain.len() {
             let start = chain.partition_point(|&[_, u, _]| u < here);
-            let onward = chain[start..]
-                .iter()
-                .take_while(|&&[_, u, _]| u == here)
-                .find(|&&[_, _, v]| v != before);
+            let onward = chain[start..].iter().take_while(|&&[_, u, _]| u == here).find(|&&[_, _, v]| v != before);
             let Some(&[_, _, v]) = onward else { break };
             (before, here) = (here, v);
             steps += 1;
             let labelled = here == last || mesh.vertices[here as usize].segment() == Some(segment);
-            ensure(labelled, Rule::Segment, || {
-                (
-                    format!("vertices of segment {segment}"),
-                    format!("vertex {here}"),
-                )
-            })?;
+            ensure(labelled, Rule::Segment, || (format!("vertices of segment {segment}"), format!("vertex {here}")))?;
         }
         let whole = here == last && 2 * steps == chain.len();
         let counted = splits.is_none_or(|s| s[segment as usize] as usize + 1 == steps);
@@ -155,12 +105,7 @@ pub fn mesh_digest(mesh: &Complex, at: impl Fn(u32) -> Point2) -> String {
     let mut dense = vec![NONE; mesh.vertices.len()];
     let mut bytes = Vec::new();
     let mut kept = 0u32;
-    for (v, _) in mesh
-        .vertices
-        .iter()
-        .enumerate()
-        .filter(|(_, v)| v.kind != Kind::Deleted)
-    {
+    for (v, _) in mesh.vertices.iter().enumerate().filter(|(_, v)| v.kind != Kind::Deleted) {
         dense[v] = kept;
         kept += 1;
         let p = at(v as u32);
@@ -168,15 +113,11 @@ pub fn mesh_digest(mesh: &Complex, at: impl Fn(u32) -> Point2) -> String {
     }
     hasher.update(&u64::from(kept).to_le_bytes());
     hasher.update(&bytes);
-    let mut triangles: Vec<[u32; 3]> = mesh
-        .triangles()
-        .map(|t| canonical(mesh.corners(t)).map(|v| dense[v as usize]))
-        .collect();
+    let mut triangles: Vec<[u32; 3]> =
+        mesh.triangles().map(|t| canonical(mesh.corners(t)).map(|v| dense[v as usize])).collect();
     triangles.sort_unstable();
-    let mut edges: Vec<[u32; 3]> = subsegments(mesh)
-        .into_iter()
-        .map(|[u, v, s]| [dense[u as usize], dense[v as usize], s])
-        .collect();
+    let mut edges: Vec<[u32; 3]> =
+        subsegments(mesh).into_iter().map(|[u, v, s]| [dense[u as usize], dense[v as usize], s]).collect();
     edges.sort_unstable();
     for list in [triangles, edges] {
         hasher.update(&(list.len() as u64).to_le_bytes());

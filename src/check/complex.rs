@@ -123,22 +123,13 @@ impl Complex {
     pub fn add_vertex(&mut self, at: Point2, kind: Kind) -> u32 {
         // Ids fit: a trace of 2^32 vertices is refused by the caller.
         let id = self.vertices.len() as u32;
-        self.vertices.push(Vertex {
-            at,
-            kind,
-            nearest: id,
-            star: NONE,
-        });
+        self.vertices.push(Vertex { at, kind, nearest: id, star: NONE });
         id
     }
 
     /// Adds a triangle without links.
     pub fn add(&mut self, corner: [u32; 3], facts: Facts) -> u32 {
-        let slot = Slot {
-            corner,
-            beyond: [NONE; 3],
-            segment: [NONE; 3],
-        };
+        let slot = Slot { corner, beyond: [NONE; 3], segment: [NONE; 3] };
         let t = match self.vacant.pop() {
             Some(t) => {
                 self.slots[t as usize] = slot;
@@ -176,9 +167,7 @@ impl Complex {
 
     /// Whether the slot holds a triangle.
     pub fn lives(&self, t: u32) -> bool {
-        self.slots
-            .get(t as usize)
-            .is_some_and(|s| s.corner[0] != NONE)
+        self.slots.get(t as usize).is_some_and(|s| s.corner[0] != NONE)
     }
 
     /// All triangles of the region.

@@ -3,9 +3,7 @@
 //! Coordinates are scaled by the checker's own power of two (`Scale`), lengths that the trace states in input units are
 //! brought to it exactly. Triangles are counterclockwise; `center` gives their circumcenters.
 
-use super::predicates::{
-    Corners, area2, center, certain, cross, dot, minus, norm2, products, square, vector,
-};
+use super::predicates::{Corners, area2, center, certain, cross, dot, minus, norm2, products, square, vector};
 use super::value::{Number, sign_of};
 use crate::model::{Point2, Sign};
 
@@ -60,10 +58,7 @@ fn selection_disk<N: Number>(t: Corners, d2: f64, a: Point2) -> N {
     let (c, d) = center::<N>(t);
     let w = vector::<N>(t[0], a);
     let two_d = d.clone() + d;
-    let off = [
-        w[0].clone() * two_d.clone() - c[0].clone(),
-        w[1].clone() * two_d - c[1].clone(),
-    ];
+    let off = [w[0].clone() * two_d.clone() - c[0].clone(), w[1].clone() * two_d - c[1].clone()];
     (N::of(1.0) - N::of(d2)).square() * norm2(&c) - norm2(&off)
 }
 
@@ -71,10 +66,7 @@ fn selection_disk<N: Number>(t: Corners, d2: f64, a: Point2) -> N {
 fn selection_interval<N: Number>(u: Point2, v: Point2, delta: f64, p: Point2) -> N {
     let to_u = vector::<N>(u, p);
     let to_v = vector::<N>(v, p);
-    let off = [
-        to_u[0].clone() + to_v[0].clone(),
-        to_u[1].clone() + to_v[1].clone(),
-    ];
+    let off = [to_u[0].clone() + to_v[0].clone(), to_u[1].clone() + to_v[1].clone()];
     (N::of(1.0) - N::of(delta)).square() * distance2::<N>(u, v) - norm2(&off)
 }
 
@@ -86,13 +78,7 @@ fn excess_deviation<N: Number>(u: Point2, v: Point2, p: Point2, tolerance: f64) 
 }
 
 /// |apex p|^2 - (distance + tolerance)^2.
-fn excess_distance<N: Number>(
-    apex: Point2,
-    p: Point2,
-    distance: f64,
-    exponent: i32,
-    tolerance: f64,
-) -> N {
+fn excess_distance<N: Number>(apex: Point2, p: Point2, distance: f64, exponent: i32, tolerance: f64) -> N {
     let reach = N::scaled(distance, exponent) + N::of(tolerance);
     distance2::<N>(apex, p) - reach.square()
 }
@@ -174,17 +160,10 @@ pub fn is_near_line(u: Point2, v: Point2, p: Point2, tolerance: f64) -> bool {
 }
 
 /// Whether |apex p| is `distance` 2^`exponent` up to `tolerance`.
-pub fn is_at_distance(
-    apex: Point2,
-    p: Point2,
-    distance: f64,
-    exponent: i32,
-    tolerance: f64,
-) -> bool {
+pub fn is_at_distance(apex: Point2, p: Point2, distance: f64, exponent: i32, tolerance: f64) -> bool {
     let near = !sign_of!(longer_than(distance, exponent, tolerance)).is_positive();
     !sign_of!(excess_distance(apex, p, distance, exponent, tolerance)).is_positive()
-        && (near
-            || !sign_of!(excess_distance(apex, p, distance, exponent, -tolerance)).is_negative())
+        && (near || !sign_of!(excess_distance(apex, p, distance, exponent, -tolerance)).is_negative())
 }
 
 /// Whether the closed edge ab meets the open disk with diameter uv.

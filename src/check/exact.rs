@@ -35,11 +35,7 @@ mod rational {
     pub fn shift(x: Rational, exponent: i32) -> Rational {
         let power = UBig::ONE << exponent.unsigned_abs() as usize;
         let factor = IBig::from(power);
-        if exponent >= 0 {
-            x * factor
-        } else {
-            x / factor
-        }
+        if exponent >= 0 { x * factor } else { x / factor }
     }
 
     pub fn cmp0(x: &Rational) -> std::cmp::Ordering {

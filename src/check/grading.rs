@@ -117,13 +117,7 @@ impl Selection {
     /// Parameters as they stand in a header, with every input angle at least 90 degrees.
     pub fn of(rho2: f64, d1: f64, d2: f64, mu: f64) -> Self {
         let [rho2, d1, d2, mu] = [rho2, d1, d2, mu].map(Rational::of);
-        Selection {
-            rho2,
-            d1,
-            d2,
-            mu,
-            cos2: None,
-        }
+        Selection { rho2, d1, d2, mu, cos2: None }
     }
 
     /// Whether C1 > 1: rho2 d2^2 > 1.
@@ -138,9 +132,7 @@ impl Selection {
 
     /// Whether C4 > 1: mu^2 > 4 cos^2(alpha_min).
     pub fn c4_above_one(&self) -> bool {
-        self.cos2
-            .as_ref()
-            .is_none_or(|cos2| self.mu.squared() > &Rational::of(4.0) * cos2)
+        self.cos2.as_ref().is_none_or(|cos2| self.mu.squared() > &Rational::of(4.0) * cos2)
     }
 
     /// Whether C1 C2 > 1: d1^2 d2^2 3 rho2 / 4 > 1 as printed, d1^2 d2^2 (rho2 - 1/4) > 1 sharp.
@@ -163,28 +155,19 @@ impl Constants {
     pub fn new(selection: &Selection, c2: C2, b2: B2) -> Self {
         let exact = |x: &Rational| Enclosure::exact(x.clone());
         let two = || Enclosure::of(2.0);
-        let (d1, d2, mu) = (
-            exact(&selection.d1),
-            exact(&selection.d2),
-            exact(&selection.mu),
-        );
+        let (d1, d2, mu) = (exact(&selection.d1), exact(&selection.d2), exact(&selection.mu));
         let rho = exact(&selection.rho2).root();
         let c2_value = match c2 {
             C2::Printed => Enclosure::exact(Rational::ratio(3, 4)).root(),
             C2::Sharp => (Enclosure::of(1.0) - Enclosure::of(0.25) / exact(&selection.rho2)).root(),
         };
-        let b3 = (Enclosure::of(1.0) + ((two() - d2.clone()) / d2.clone()).root() - d1.clone())
-            / d1.clone();
-        let self_loops =
-            selection.c1_above_one() && selection.c3_above_one() && selection.c4_above_one();
+        let b3 = (Enclosure::of(1.0) + ((two() - d2.clone()) / d2.clone()).root() - d1.clone()) / d1.clone();
+        let self_loops = selection.c1_above_one() && selection.c3_above_one() && selection.c4_above_one();
         Constants {
             c1: rho.clone() * d2.clone(),
             c2: d1.clone() * c2_value,
             c3: rho * d1.clone() * exact(&selection.q2()).root(),
-            c4: selection
-                .cos2
-                .as_ref()
-                .map(|cos2| mu.clone() / (two() * exact(cos2).root())),
+            c4: selection.cos2.as_ref().map(|cos2| mu.clone() / (two() * exact(cos2).root())),
             c5: mu.clone() / (two() - mu.clone()),
             b1: (two() - d2.clone()) / d2,
             b2: match b2 {
@@ -200,9 +183,7 @@ impl Constants {
 
     /// x/C4, zero where C4 is infinite.
     fn over_c4(&self, x: &Enclosure) -> Enclosure {
-        self.c4
-            .as_ref()
-            .map_or_else(|| Enclosure::of(0.0), |c4| x.clone() / c4.clone())
+        self.c4.as_ref().map_or_else(|| Enclosure::of(0.0), |c4| x.clone() / c4.clone())
     }
 
     /// The least solution of (5.11)-(5.19); `None` where no finite one exists.
@@ -214,8 +195,8 @@ impl Constants {
             return None;
         }
         let c12 = self.c1.clone() * self.c2.clone();
-        let around = (self.b1.clone() + self.b2.clone() * self.c2.clone()) * self.c1.clone()
-            / (c12 - Enclosure::of(1.0));
+        let around =
+            (self.b1.clone() + self.b2.clone() * self.c2.clone()) * self.c1.clone() / (c12 - Enclosure::of(1.0));
         let m = self.loop_b().max(self.loop_c()).max(around);
         let a = self.b1.clone() + m.clone() / self.c1.clone();
         let through_a = self.b2.clone() + a.clone() / self.c2.clone();
@@ -229,21 +210,14 @@ impl Constants {
         if !self.self_loops {
             return None;
         }
-        let (b1, b2, b3, b4) = (
-            self.b1.clone(),
-            self.b2.clone(),
-            self.b3.clone(),
-            self.b4.clone(),
-        );
+        let (b1, b2, b3, b4) = (self.b1.clone(), self.b2.clone(), self.b3.clone(), self.b4.clone());
         let loop_a = b1.clone() * self.c1.clone() / (self.c1.clone() - Enclosure::of(1.0));
         let (loop_b, loop_c) = (self.loop_b(), self.loop_c());
         // where C4 is infinite the entries with B4 C4/(C4 - 1) read B4, which the others dominate or equal
         let a = (loop_a.clone())
             .max(loop_b.clone() / self.c1.clone() + b1.clone())
             .max(loop_c.clone() / self.c1.clone() + b1);
-        let b = (loop_b.clone())
-            .max(loop_a / self.c2.clone() + b2)
-            .max(loop_c.clone() / self.c3.clone() + b3);
+        let b = (loop_b.clone()).max(loop_a / self.c2.clone() + b2).max(loop_c.clone() / self.c3.clone() + b3);
         let c = loop_c.max(self.over_c4(&loop_b) + b4.clone()).max(b4);
         Some(Bounds { a, b, c })
     }
@@ -264,8 +238,7 @@ impl Constants {
     /// The system at given bounds: for each inequality whether it holds, `None` where both sides agree to 150 bits.
     pub fn system(&self, d: &Bounds) -> [(Inequality, Option<bool>); 9] {
         use Inequality::{I5_11, I5_12, I5_13, I5_14, I5_15, I5_16, I5_17, I5_18, I5_19};
-        let affine =
-            |b: &Enclosure, x: &Enclosure, c: &Enclosure| b.clone() + x.clone() / c.clone();
+        let affine = |b: &Enclosure, x: &Enclosure, c: &Enclosure| b.clone() + x.clone() / c.clone();
         let case4 = |x: &Enclosure| self.b4.clone() + self.over_c4(x);
         [
             (I5_11, affine(&self.b1, &d.a, &self.c1).at_most(&d.a)),
@@ -282,11 +255,7 @@ impl Constants {
 
     /// The inequalities that are violated for certain.
     pub fn violated(&self, d: &Bounds) -> Vec<Inequality> {
-        self.system(d)
-            .into_iter()
-            .filter(|(_, holds)| *holds == Some(false))
-            .map(|(id, _)| id)
-            .collect()
+        self.system(d).into_iter().filter(|(_, holds)| *holds == Some(false)).map(|(id, _)| id).collect()
     }
 }
 

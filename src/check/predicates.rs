@@ -105,11 +105,7 @@ pub fn orient(a: Point2, b: Point2, c: Point2) -> Sign {
 pub fn in_circle(t: Corners, q: Point2) -> Sign {
     let [u, v, w] = [t[1], t[2], q].map(|p| minus(p, t[0]));
     let (mut value, mut size) = (0.0, 0.0);
-    for ([l, r], lift) in [
-        (products(w, v), square(u)),
-        (products(u, w), square(v)),
-        (products(v, u), square(w)),
-    ] {
+    for ([l, r], lift) in [(products(w, v), square(u)), (products(u, w), square(v)), (products(v, u), square(w))] {
         value += (l - r) * lift;
         size += (l.abs() + r.abs()) * lift;
     }
@@ -129,11 +125,7 @@ pub fn in_conflict(t: Corners, q: Point2) -> bool {
     }
     let mut corners = [0, 1, 2];
     let precedes = |a: Point2, b: Point2| (a.x, a.y) < (b.x, b.y);
-    corners.sort_by(|&i, &j| {
-        (t[j].x, t[j].y)
-            .partial_cmp(&(t[i].x, t[i].y))
-            .unwrap_or(std::cmp::Ordering::Equal)
-    });
+    corners.sort_by(|&i, &j| (t[j].x, t[j].y).partial_cmp(&(t[i].x, t[i].y)).unwrap_or(std::cmp::Ordering::Equal));
     for k in corners {
         if precedes(t[k], q) {
             return false;

@@ -17,10 +17,7 @@ pub fn sectors(mesh: &Complex) -> Vec<Sector> {
         if mesh.vertices[v as usize].kind != Kind::Input {
             continue;
         }
-        for e in mesh
-            .star(v)
-            .filter(|&e| mesh.segment(e) != NONE && mesh.inside(e).is_some())
-        {
+        for e in mesh.star(v).filter(|&e| mesh.segment(e) != NONE && mesh.inside(e).is_some()) {
             let mut turned = e;
             while mesh.segment(previous(turned)) == NONE {
                 turned = mesh.beyond(previous(turned));
@@ -56,12 +53,7 @@ fn product<N: Number>(at: Point2, right: Point2, left: Point2) -> N {
 }
 
 /// The level of these parameters on this input.
-pub fn level(
-    parameters: &GcdrParameters,
-    deltas: Deltas,
-    mesh: &Complex,
-    sectors: &[Sector],
-) -> Level {
+pub fn level(parameters: &GcdrParameters, deltas: Deltas, mesh: &Complex, sectors: &[Sector]) -> Level {
     let angles = sectors.iter().fold(Level::Graded, |level, sector| {
         let [at, right, left] = sector.map(|v| mesh.at(v));
         if !sign_of!(product(at, right, left)).is_positive() {
@@ -91,9 +83,5 @@ fn level_of_parameters(parameters: &GcdrParameters, Deltas { d1, d2, mu }: Delta
         return Level::Outside;
     }
     let cycle = of(d1).square() * of(d2).square() * (rho2.clone() - of(0.25));
-    if sign(rho2, 1.0).is_positive() && sign(cycle, 1.0).is_positive() {
-        Level::Graded
-    } else {
-        Level::Admissible
-    }
+    if sign(rho2, 1.0).is_positive() && sign(cycle, 1.0).is_positive() { Level::Graded } else { Level::Admissible }
 }

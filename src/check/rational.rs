@@ -80,11 +80,7 @@ impl Rational {
         let exact = rest == 0;
         let denominator = Integer::from(self.0.denom() << shift);
         let over = |n: Integer| Self(Repr::from((n, denominator.clone())));
-        let high = if exact {
-            root.clone()
-        } else {
-            Integer::from(&root + 1)
-        };
+        let high = if exact { root.clone() } else { Integer::from(&root + 1) };
         (over(root), over(high))
     }
 
@@ -98,11 +94,7 @@ impl Rational {
         let (root, rest) = (product << (2 * shift)).sqrt_rem();
         let denominator = self.0.denominator() << shift;
         let over = |n: UBig| Self(Repr::from_parts(IBig::from(n), denominator.clone()));
-        let high = if rest == UBig::ZERO {
-            root.clone()
-        } else {
-            &root + UBig::ONE
-        };
+        let high = if rest == UBig::ZERO { root.clone() } else { &root + UBig::ONE };
         (over(root), over(high))
     }
 }

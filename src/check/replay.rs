@@ -80,20 +80,10 @@ impl Replay {
     /// The triangle of an event; it is in the region.
     pub fn triangle(&self, t: Triangle) -> Checked<u32> {
         let corners = numbers(t);
-        ensure(canonical(corners) == corners, Rule::Canonical, || {
-            ("the smallest id first", format!("{corners:?}"))
-        })?;
-        match self
-            .mesh
-            .find_triangle(corners)
-            .filter(|&t| !self.mesh.facts(t).outside)
-        {
+        ensure(canonical(corners) == corners, Rule::Canonical, || ("the smallest id first", format!("{corners:?}")))?;
+        match self.mesh.find_triangle(corners).filter(|&t| !self.mesh.facts(t).outside) {
             Some(t) => Ok(t),
-            None => broken(
-                Rule::Exists,
-                "a triangle of the mesh",
-                format!("{corners:?}"),
-            ),
+            None => broken(Rule::Exists, "a triangle of the mesh", format!("{corners:?}")),
         }
     }
 
@@ -101,42 +91,16 @@ impl Replay {
 
     /// Takes one event. Removals only join the queue of those that wait.
     pub fn event(&mut self, event: &Event) -> Checked {
-        if let (
-            Event::Skip { .. }
-            | Event::Insert {
-                why: Why::Free { .. },
-                ..
-            },
-            Some(first),
-        ) = (event, self.first_waiting())
+        if let (Event::Skip { .. } | Event::Insert { why: Why::Free { .. }, .. }, Some(first)) =
+            (event, self.first_waiting())
         {
-            return broken(
-                Rule::Removal,
-                format!("the split that removal {first} is for"),
-                "another event",
-            );
+            return broken(Rule::Removal, format!("the split that removal {first} is for"), "another event");
         }
         match event {
             Event::Remove { id, created } => self.wait(*id, created),
             Event::Skip { t, cause, reason } => self.skip(*t, *cause, *reason),
-            Event::Insert {
-                p,
-                why: Why::Free { cause },
-                destroyed,
-            } => self.insert_free(*p, *cause, destroyed),
-            Event::Insert {
-                p,
-                why:
-                    Why::Split {
-                        kind,
-                        s,
-                        t,
-                        cause,
-                        a,
-                        shell,
-                    },
-                destroyed,
-            } => {
+            Event::Insert { p, why: Why::Free { cause }, destroyed } => self.insert_free(*p, *cause, destroyed),
+            Event::Insert { p, why: Why::Split { kind, s, t, cause, a, shell }, destroyed } => {
                 let split = self.split_of(*p, *kind, s.map(|v| v.0), *t, *cause, *a)?;
                 self.insert_on_segment(split, *shell, destroyed)
             }
@@ -144,75 +108,43 @@ impl Replay {
     }
 
     fn wait(&mut self, VertexId(vertex): VertexId, created: &[Triangle]) -> Checked {
-        let free = self
-            .mesh
-            .vertices
-            .get(vertex as usize)
-            .is_some_and(|v| v.is_free());
-        ensure(free, Rule::S2, || {
-            ("a free vertex of the mesh", format!("vertex {vertex}"))
-        })?;
+        let free = self.mesh.vertices.get(vertex as usize).is_some_and(|v| v.is_free());
+        ensure(free, Rule::S2, || ("a free vertex of the mesh", format!("vertex {vertex}")))?;
         let ascending = self.waiting.last().is_none_or(|w| w.vertex < vertex);
-        ensure(ascending, Rule::S2, || {
-            (
-                "removals in ascending order of ids",
-                format!("vertex {vertex}"),
-            )
-        })?;
+        ensure(ascending, Rule::S2, || ("removals in ascending order of ids", format!("vertex {vertex}")))?;
         let start = self.filling.len();
         self.filling.extend(created.iter().map(|&t| numbers(t)));
-        self.waiting.push(Waiting {
-            vertex,
-            event: self.event,
-            start,
-            end: self.filling.len(),
-        });
+        self.waiting.push(Waiting { vertex, event: self.event, start, end: self.filling.len() });
         Ok(())
     }
 
     fn insert_free(&mut self, p: Point2, cause: Cause, destroyed: &[Triangle]) -> Checked {
         let Some(&first) = destroyed.first() else {
-            return broken(
-                Rule::Flood,
-                "the bad triangle first",
-                "no destroyed triangle",
-            );
+            return broken(Rule::Flood, "the bad triangle first", "no destroyed triangle");
         };
         let p = self.scale.place(p)?;
         let t = self.triangle(first)?;
         self.check_cause(t, cause)?;
         let corners = self.mesh.places(t);
         ensure(in_circle(corners, p).is_positive(), Rule::A1, || {
-            (
-                "a point strictly inside the circle of its triangle",
-                format!("{p:?}"),
-            )
+            ("a point strictly inside the circle of its triangle", format!("{p:?}"))
         })?;
         self.check_users_disk(corners, p)?;
         let (ids, slack) = (self.mesh.corners(t), self.ledger.regions.disk(corners, p));
         let region = self.mesh.facts(t).region;
         let root = (0..3).find(|&k| ids[k as usize] == first[0].0).unwrap_or(0);
         self.begin_flood();
-        self.flood_root(
-            t,
-            &[4 * t + root, next(4 * t + root), previous(4 * t + root)],
-            p,
-        );
+        self.flood_root(t, &[4 * t + root, next(4 * t + root), previous(4 * t + root)], p);
         self.compare_flood(destroyed)?;
         let tree = self.rim.len() == self.destroyed.len() + 2;
-        ensure(tree, Rule::Star, || {
-            ("a cavity that encloses no vertex", "one that does")
-        })?;
+        ensure(tree, Rule::Star, || ("a cavity that encloses no vertex", "one that does"))?;
         self.check_positive(p)?;
         let v = self.mesh.add_vertex(p, Kind::Free);
         self.ledger.rungs.push(None);
         self.destroyed.iter().for_each(|&t| self.mesh.drop(t));
         let count = self.rim.len();
         self.fan(v, 0..count, region);
-        let (first, last) = (
-            self.created[self.created.len() - count],
-            self.created[self.created.len() - 1],
-        );
+        let (first, last) = (self.created[self.created.len() - count], self.created[self.created.len() - 1]);
         self.mesh.join(4 * last + 1, 4 * first + 2, NONE);
         self.measure(v);
         self.ledger.tally.type_a += 1;

@@ -6,8 +6,7 @@
 
 use super::complex::Kind;
 use super::condition::{
-    compare_lengths, distance2, in_diametral_disk, in_selection_disk, in_selection_interval,
-    shortest_edge,
+    compare_lengths, distance2, in_diametral_disk, in_selection_disk, in_selection_interval, shortest_edge,
 };
 use super::predicates::{Corners, area2, center, cross, dot, vector};
 use super::replay::Replay;
@@ -48,23 +47,9 @@ pub struct Regions {
 impl Regions {
     /// The regions of a run.
     pub fn new(parameters: &GcdrParameters, level: Level) -> Regions {
-        let nominal = Deltas {
-            d1: parameters.d1,
-            d2: parameters.d2,
-            mu: parameters.mu,
-        };
-        let slack = Deltas {
-            d1: loosened(nominal.d1),
-            d2: loosened(nominal.d2),
-            mu: loosened(nominal.mu),
-        };
-        Regions {
-            claimed: level != Level::Outside,
-            nominal,
-            slack,
-            left_nominal: false,
-            left_slack: false,
-        }
+        let nominal = Deltas { d1: parameters.d1, d2: parameters.d2, mu: parameters.mu };
+        let slack = Deltas { d1: loosened(nominal.d1), d2: loosened(nominal.d2), mu: loosened(nominal.mu) };
+        Regions { claimed: level != Level::Outside, nominal, slack, left_nominal: false, left_slack: false }
     }
 
     /// The parameters whose disk of t holds the Type-A point a.
@@ -106,20 +91,12 @@ pub fn loosened(x: f64) -> f64 {
     let factor = 1.0 - power_of_two(-20);
     let rounded = x * factor;
     let excess = Exact::of(rounded) - Exact::of(x) * Exact::of(factor);
-    if exact_sign(&excess).is_positive() {
-        rounded.next_down()
-    } else {
-        rounded
-    }
+    if exact_sign(&excess).is_positive() { rounded.next_down() } else { rounded }
 }
 
 /// The smaller of each.
 fn weaker(a: Deltas, b: Deltas) -> Deltas {
-    Deltas {
-        d1: a.d1.min(b.d1),
-        d2: a.d2.min(b.d2),
-        mu: a.mu.min(b.mu),
-    }
+    Deltas { d1: a.d1.min(b.d1), d2: a.d2.min(b.d2), mu: a.mu.min(b.mu) }
 }
 
 /// What the rows speak of. A distance is a pair of points; R and R' are those of p and of its parent.
@@ -203,10 +180,7 @@ fn sides<N: Number>(row: Row, c: &Case) -> [N; 3] {
     let angle = || {
         let [v, x, y] = c.incident;
         let (x, y) = (vector::<N>(v, x), vector::<N>(v, y));
-        (
-            dot(&x, &y).square(),
-            super::predicates::norm2(&x) * super::predicates::norm2(&y),
-        )
+        (dot(&x, &y).square(), super::predicates::norm2(&x) * super::predicates::norm2(&y))
     };
     match row {
         Row::A3 => {
@@ -219,85 +193,45 @@ fn sides<N: Number>(row: Row, c: &Case) -> [N; 3] {
             let (r2, unit) = circle();
             let h = height::<N>(c);
             let e2 = length2(c.separator);
-            [
-                (one() - N::of(c.deltas.d2)).square() * r2 * e2.clone(),
-                h.square(),
-                unit * e2,
-            ]
+            [(one() - N::of(c.deltas.d2)).square() * r2 * e2.clone(), h.square(), unit * e2]
         }
         Row::S1Longer => [length2(c.separator), length2(c.l), one()],
         Row::Nearest(x) => [length2(c.r), length2([c.p, x]), one()],
         Row::B1 => [N::of(4.0) * length2(c.r), d1_2() * length2(c.s), N::of(4.0)],
-        Row::B2 => [
-            rho2() * length2(c.s),
-            (N::of(4.0) * rho2() - one()) * length2(c.l),
-            rho2(),
-        ],
+        Row::B2 => [rho2() * length2(c.s), (N::of(4.0) * rho2() - one()) * length2(c.l), rho2()],
         Row::B3 => {
             let unit = N::of(4.0) * rho2();
-            [
-                unit.clone() * length2(c.r),
-                d1_2() * (unit.clone() - one()) * length2(c.r_parent),
-                unit,
-            ]
+            [unit.clone() * length2(c.r), d1_2() * (unit.clone() - one()) * length2(c.r_parent), unit]
         }
         Row::B4Line => {
             let (r2, unit) = circle();
             let h = height_over::<N>(c, c.s);
             let s2 = length2(c.s);
-            [
-                (one() - N::of(c.deltas.d2)).square() * r2 * s2.clone(),
-                h.square(),
-                unit * s2,
-            ]
+            [(one() - N::of(c.deltas.d2)).square() * r2 * s2.clone(), h.square(), unit * s2]
         }
         Row::B4Chord => {
             let (r2, unit) = circle();
             let unit = N::of(4.0) * unit;
-            [
-                unit.clone() * length2(c.s),
-                N::of(16.0) * q2() * r2,
-                N::of(4.0) * unit,
-            ]
+            [unit.clone() * length2(c.s), N::of(16.0) * q2() * r2, N::of(4.0) * unit]
         }
-        Row::B4Parent => [
-            length2(c.r),
-            rho2() * d1_2() * q2() * length2(c.r_parent),
-            one(),
-        ],
+        Row::B4Parent => [length2(c.r), rho2() * d1_2() * q2() * length2(c.r_parent), one()],
         Row::B5Inside => {
             let k = (N::of(2.0) - N::of(c.deltas.d1)).square();
-            [
-                k * length2(c.s),
-                N::of(4.0) * length2([c.p, c.parent]),
-                N::of(4.0),
-            ]
+            [k * length2(c.s), N::of(4.0) * length2([c.p, c.parent]), N::of(4.0)]
         }
         Row::C1 => [N::of(4.0) * length2(c.r), mu_2() * length2(c.s), N::of(4.0)],
         Row::C2 { nearest } => {
             let (cosine, unit) = angle();
             let k = if nearest { one() } else { mu_2() };
-            [
-                N::of(4.0) * length2(c.r) * cosine,
-                k * unit.clone() * length2(c.r_parent),
-                unit,
-            ]
+            [N::of(4.0) * length2(c.r) * cosine, k * unit.clone() * length2(c.r_parent), unit]
         }
         Row::C2End => {
             let (cosine, unit) = angle();
-            [
-                length2(c.s) * cosine,
-                unit.clone() * length2([c.parent, c.incident[0]]),
-                unit,
-            ]
+            [length2(c.s) * cosine, unit.clone() * length2([c.parent, c.incident[0]]), unit]
         }
         Row::C4 => {
             let k = (N::of(2.0) - N::of(c.deltas.mu)).square();
-            [
-                k * length2(c.s),
-                N::of(4.0) * length2([c.p, c.parent]),
-                N::of(4.0),
-            ]
+            [k * length2(c.s), N::of(4.0) * length2([c.p, c.parent]), N::of(4.0)]
         }
     }
 }
@@ -323,16 +257,14 @@ fn difference<N: Number>(row: Row, c: &Case) -> N {
 fn holds(row: Row, c: &Case, delta: f64) -> bool {
     let sign = super::value::sign_of!(difference(row, c));
     if sign.is_positive()
-        || (sign == crate::model::Sign::Zero
-            && !matches!(row, Row::S1Longer | Row::B5Inside | Row::C4))
+        || (sign == crate::model::Sign::Zero && !matches!(row, Row::S1Longer | Row::B5Inside | Row::C4))
     {
         return true;
     }
     // sqrt(greater) + delta sqrt(factor) >= sqrt(lesser), from bounds.
     let [greater, lesser, factor] = sides::<Approx>(row, c).map(Approx::bounds);
     delta > 0.0
-        && greater.0.max(0.0).sqrt().next_down()
-            + delta * factor.0.max(0.0).sqrt().next_down() * LOW
+        && greater.0.max(0.0).sqrt().next_down() + delta * factor.0.max(0.0).sqrt().next_down() * LOW
             >= lesser.1.sqrt().next_up()
 }
 
@@ -343,10 +275,7 @@ fn require(rule: Rule, row: Row, c: &Case, delta: f64) -> Checked {
     ensure(holds(row, c, delta), rule, || {
         let [greater, lesser, factor] = sides::<Approx>(row, c).map(Approx::value);
         let (greater, lesser) = ((greater / factor).sqrt(), (lesser / factor).sqrt());
-        (
-            format!("{row:?}: {greater:e} + {delta:e} to reach {lesser:e} (scaled units)"),
-            format!("{:?}", c.deltas),
-        )
+        (format!("{row:?}: {greater:e} + {delta:e} to reach {lesser:e} (scaled units)"), format!("{:?}", c.deltas))
     })
 }
 
@@ -378,14 +307,7 @@ fn case(replay: &Replay, t: Corners, ids: [u32; 3], deltas: Deltas, p: u32) -> (
 }
 
 /// Rows A3 to A5, after the insertion of p for t.
-pub fn type_a(
-    replay: &Replay,
-    p: u32,
-    t: Corners,
-    ids: [u32; 3],
-    cause: Cause,
-    deltas: Option<Deltas>,
-) -> Checked {
+pub fn type_a(replay: &Replay, p: u32, t: Corners, ids: [u32; 3], cause: Cause, deltas: Option<Deltas>) -> Checked {
     let Some(deltas) = deltas else { return Ok(()) };
     let (case, _) = case(replay, t, ids, deltas, p);
     require(Rule::A3, Row::A3, &case, 0.0)?;
@@ -430,22 +352,14 @@ pub fn after_split(
         SplitKind::B => type_b(replay, split, &case, parent, p),
         SplitKind::C { parent } => {
             case.parent = replay.mesh.at(parent.0);
-            case.r_parent = [
-                case.parent,
-                replay
-                    .mesh
-                    .at(replay.mesh.vertices[parent.0 as usize].nearest),
-            ];
+            case.r_parent = [case.parent, replay.mesh.at(replay.mesh.vertices[parent.0 as usize].nearest)];
             type_c(replay, split, &mut case, parent.0, p)
         }
     }
 }
 
 fn type_b(replay: &Replay, split: &Split, case: &Case, parent: u32, p: u32) -> Checked {
-    let delta = [p, split.ends[0], split.ends[1], parent]
-        .iter()
-        .map(|&v| deviation(replay, v))
-        .sum();
+    let delta = [p, split.ends[0], split.ends[1], parent].iter().map(|&v| deviation(replay, v)).sum();
     if !holds(Row::Nearest(case.s[0]), case, delta) {
         require(Rule::B1, Row::Nearest(case.s[1]), case, delta)?;
     }
@@ -460,23 +374,17 @@ fn type_b(replay: &Replay, split: &Split, case: &Case, parent: u32, p: u32) -> C
         require(Rule::B5, Row::B5Inside, case, delta)?;
         // For tiny angles the lemma behind B6' is open (erratum 8).
         let kind = replay.mesh.vertices[parent as usize].kind;
-        let free = kind == Kind::Deleted
-            || (kind == Kind::Free && replay.ledger.parameters.deletion == DeletionPolicy::Point);
+        let free =
+            kind == Kind::Deleted || (kind == Kind::Free && replay.ledger.parameters.deletion == DeletionPolicy::Point);
         ensure(free || case.rho2 > 25.0, Rule::B6, || {
-            (
-                "a free parent, deleted in this step",
-                format!("vertex {parent}, {kind:?}"),
-            )
+            ("a free parent, deleted in this step", format!("vertex {parent}, {kind:?}"))
         })
     } else {
         require(Rule::B4, Row::B4Line, case, delta)?;
         require(Rule::B4, Row::B4Chord, case, delta)?;
         require(Rule::B4, Row::B4Parent, case, delta)?;
         ensure(external_parent_is_near(case, delta), Rule::B5, || {
-            (
-                "2 |p p'| <= (1 + sqrt((2 - d2)/d2) - d1) S",
-                format!("vertex {parent}"),
-            )
+            ("2 |p p'| <= (1 + sqrt((2 - d2)/d2) - d1) S", format!("vertex {parent}"))
         })
     }
 }
@@ -489,8 +397,7 @@ fn external_parent_is_near(case: &Case, delta: f64) -> bool {
         let [u, v] = case.s;
         let k = 1.0 - case.deltas.d1 + ((2.0 - case.deltas.d2) / case.deltas.d2).sqrt();
         let reach = k * distance2::<Approx>(u, v).bounds().0.max(0.0).sqrt() * (1.0 - 1e-14);
-        let needed =
-            2.0 * distance2::<Approx>(case.p, case.parent).bounds().1.sqrt() * (1.0 + 1e-14);
+        let needed = 2.0 * distance2::<Approx>(case.p, case.parent).bounds().1.sqrt() * (1.0 + 1e-14);
         if reach + delta * LOW >= needed {
             return true;
         }
@@ -505,20 +412,13 @@ fn external_parent_is_near(case: &Case, delta: f64) -> bool {
         let k = N::of(4.0) * (N::of(1.0) - d1).square() * d2.clone() * (N::of(2.0) - d2);
         k * distance2::<N>(c.s[0], c.s[1]).square() - excess::<N>(c).square()
     }
-    !super::value::sign_of!(excess(case)).is_positive()
-        || !super::value::sign_of!(rest(case)).is_negative()
+    !super::value::sign_of!(excess(case)).is_positive() || !super::value::sign_of!(rest(case)).is_negative()
 }
 
 fn type_c(replay: &Replay, split: &Split, case: &mut Case, parent: u32, p: u32) -> Checked {
-    let delta = [p, split.ends[0], split.ends[1], parent]
-        .iter()
-        .map(|&v| deviation(replay, v))
-        .sum();
+    let delta = [p, split.ends[0], split.ends[1], parent].iter().map(|&v| deviation(replay, v)).sum();
     let candidates = [case.parent, case.s[0], case.s[1]];
-    let Some(nearest) = candidates
-        .iter()
-        .position(|&x| holds(Row::Nearest(x), case, delta))
-    else {
+    let Some(nearest) = candidates.iter().position(|&x| holds(Row::Nearest(x), case, delta)) else {
         return require(Rule::C1, Row::Nearest(case.parent), case, delta);
     };
     if nearest != 0 {
@@ -529,20 +429,8 @@ fn type_c(replay: &Replay, split: &Split, case: &mut Case, parent: u32, p: u32) 
         case.incident = incident;
         let [v, x, y] = incident;
         let acute = super::value::sign_of!(cosine(v, x, y)).is_positive();
-        ensure(acute, Rule::C2, || {
-            (
-                "an acute angle between incident segments",
-                format!("parent {parent}"),
-            )
-        })?;
-        require(
-            Rule::C2,
-            Row::C2 {
-                nearest: nearest == 0,
-            },
-            case,
-            delta,
-        )?;
+        ensure(acute, Rule::C2, || ("an acute angle between incident segments", format!("parent {parent}")))?;
+        require(Rule::C2, Row::C2 { nearest: nearest == 0 }, case, delta)?;
         require(Rule::C2, Row::C2End, case, delta)?;
     }
     Ok(())
@@ -568,17 +456,11 @@ fn deviation(replay: &Replay, v: u32) -> f64 {
     let Some(s) = vertex.segment() else {
         return 0.0;
     };
-    let [a, b] = replay.ledger.segments[s as usize]
-        .ends
-        .map(|v| replay.mesh.at(v.0));
+    let [a, b] = replay.ledger.segments[s as usize].ends.map(|v| replay.mesh.at(v.0));
     let off = area2::<Approx>(a, b, vertex.at).bounds();
     let off = off.0.abs().max(off.1.abs());
     let length = distance2::<Approx>(a, b).bounds().0.max(0.0).sqrt();
-    if length > 0.0 && off > 0.0 {
-        (off / length) * (1.0 + 1e-14)
-    } else {
-        0.0
-    }
+    if length > 0.0 && off > 0.0 { (off / length) * (1.0 + 1e-14) } else { 0.0 }
 }
 
 impl Replay {
@@ -588,9 +470,7 @@ impl Replay {
         let mut nearest = p;
         for w in self.rim.iter().flat_map(|r| [r.from, r.to]) {
             if w != nearest
-                && (nearest == p
-                    || compare_lengths(at, self.mesh.at(w), at, self.mesh.at(nearest))
-                        .is_negative())
+                && (nearest == p || compare_lengths(at, self.mesh.at(w), at, self.mesh.at(nearest)).is_negative())
             {
                 nearest = w;
             }

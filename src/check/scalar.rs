@@ -10,9 +10,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Sub};
 
 /// A number that knows how well it is known.
-pub trait Scalar:
-    Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-{
+pub trait Scalar: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
     /// The exact value of a finite double.
     fn of(x: f64) -> Self;
     /// A number of which nothing is known.
@@ -73,10 +71,7 @@ const LONG: u64 = (1 << 27) - 1;
 
 impl Bounded {
     fn rounded(value: f64, error: f64) -> Self {
-        Bounded {
-            value,
-            error: error + U * value.abs() + TINY,
-        }
+        Bounded { value, error: error + U * value.abs() + TINY }
     }
 
     /// a b, if it is certain to be a double.
@@ -93,20 +88,12 @@ impl Bounded {
 
     /// A number not above the true value.
     pub fn low(&self) -> f64 {
-        if self.is_exact() {
-            self.value
-        } else {
-            (self.value - self.error * SLACK).next_down()
-        }
+        if self.is_exact() { self.value } else { (self.value - self.error * SLACK).next_down() }
     }
 
     /// A number not below the true value.
     pub fn high(&self) -> f64 {
-        if self.is_exact() {
-            self.value
-        } else {
-            (self.value + self.error * SLACK).next_up()
-        }
+        if self.is_exact() { self.value } else { (self.value + self.error * SLACK).next_up() }
     }
 
     /// Any value from low to high.
@@ -140,10 +127,7 @@ impl Add for Bounded {
 impl Sub for Bounded {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        self + Bounded {
-            value: -other.value,
-            error: other.error,
-        }
+        self + Bounded { value: -other.value, error: other.error }
     }
 }
 
@@ -156,9 +140,7 @@ impl Mul for Bounded {
         {
             return Self::of(product);
         }
-        let error = self.value.abs() * other.error
-            + other.value.abs() * self.error
-            + self.error * other.error;
+        let error = self.value.abs() * other.error + other.value.abs() * self.error + self.error * other.error;
         Self::rounded(self.value * other.value, error)
     }
 }
@@ -168,35 +150,23 @@ impl Div for Bounded {
     /// With q = a/b rounded: |a'/b' - q| <= (ea + |q| eb)/(|b| - eb), unknown unless eb < |b|/2.
     fn div(self, other: Self) -> Self {
         let q = self.value / other.value;
-        if self.is_exact()
-            && other.is_exact()
-            && Self::exact_product(q, other.value) == Some(self.value)
-        {
+        if self.is_exact() && other.is_exact() && Self::exact_product(q, other.value) == Some(self.value) {
             return Self::of(q);
         }
         let room = other.value.abs() - other.error;
-        let error = if other.error < 0.5 * other.value.abs() {
-            (self.error + q.abs() * other.error) / room
-        } else {
-            f64::NAN
-        };
+        let error =
+            if other.error < 0.5 * other.value.abs() { (self.error + q.abs() * other.error) / room } else { f64::NAN };
         Self::rounded(q, 2.0 * error)
     }
 }
 
 impl Scalar for Bounded {
     fn of(x: f64) -> Self {
-        Bounded {
-            value: x,
-            error: 0.0,
-        }
+        Bounded { value: x, error: 0.0 }
     }
 
     fn unknown() -> Self {
-        Bounded {
-            value: f64::NAN,
-            error: f64::NAN,
-        }
+        Bounded { value: f64::NAN, error: f64::NAN }
     }
 
     /// |sqrt(x') - sqrt(x)| <= e/sqrt(x). Where e is not small against x: anything from 0 to the root of the upper bound.
@@ -231,27 +201,13 @@ impl Scalar for Bounded {
     }
 
     fn min(self, other: Self) -> Self {
-        let value = if self.value < other.value {
-            self.value
-        } else {
-            other.value
-        };
-        Bounded {
-            value,
-            error: larger_error(self, other),
-        }
+        let value = if self.value < other.value { self.value } else { other.value };
+        Bounded { value, error: larger_error(self, other) }
     }
 
     fn max(self, other: Self) -> Self {
-        let value = if self.value < other.value {
-            other.value
-        } else {
-            self.value
-        };
-        Bounded {
-            value,
-            error: larger_error(self, other),
-        }
+        let value = if self.value < other.value { other.value } else { self.value };
+        Bounded { value, error: larger_error(self, other) }
     }
 
     fn display(&self) -> f64 {
@@ -282,11 +238,7 @@ pub struct Enclosure {
 impl Enclosure {
     /// An exact value.
     pub fn exact(x: Rational) -> Self {
-        Enclosure {
-            high: x.clone(),
-            low: x,
-            known: true,
-        }
+        Enclosure { high: x.clone(), low: x, known: true }
     }
 
     /// The value, if it is known exactly.
@@ -310,11 +262,7 @@ impl Enclosure {
     }
 
     fn nothing() -> Self {
-        Enclosure {
-            low: Rational::of(0.0),
-            high: Rational::of(0.0),
-            known: false,
-        }
+        Enclosure { low: Rational::of(0.0), high: Rational::of(0.0), known: false }
     }
 
     fn span(corners: [Rational; 4], known: bool) -> Self {
@@ -328,22 +276,14 @@ impl Enclosure {
 impl Add for Enclosure {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Enclosure {
-            low: self.low + other.low,
-            high: self.high + other.high,
-            known: self.known && other.known,
-        }
+        Enclosure { low: self.low + other.low, high: self.high + other.high, known: self.known && other.known }
     }
 }
 
 impl Sub for Enclosure {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        Enclosure {
-            low: self.low - other.high,
-            high: self.high - other.low,
-            known: self.known && other.known,
-        }
+        Enclosure { low: self.low - other.high, high: self.high - other.low, known: self.known && other.known }
     }
 }
 
@@ -352,10 +292,7 @@ impl Mul for Enclosure {
     fn mul(self, other: Self) -> Self {
         let known = self.known && other.known;
         if self.low == self.high && other.low == other.high {
-            return Enclosure {
-                known,
-                ..Self::exact(self.low * other.low)
-            };
+            return Enclosure { known, ..Self::exact(self.low * other.low) };
         }
         let (a, b, c, d) = (&self.low, &self.high, &other.low, &other.high);
         Self::span([a * c, a * d, b * c, b * d], known)
@@ -370,10 +307,7 @@ impl Div for Enclosure {
             return Self::nothing();
         }
         if self.low == self.high && other.low == other.high {
-            return Enclosure {
-                known,
-                ..Self::exact(self.low / other.low)
-            };
+            return Enclosure { known, ..Self::exact(self.low / other.low) };
         }
         let (a, b, c, d) = (&self.low, &self.high, &other.low, &other.high);
         Self::span([a / c, a / d, b / c, b / d], known)
@@ -392,11 +326,7 @@ impl Scalar for Enclosure {
     fn root(self) -> Self {
         let low = std::cmp::max(self.low, Rational::of(0.0));
         match (low.root(), self.high.root()) {
-            (Some((low, _)), Some((_, high))) => Enclosure {
-                low,
-                high,
-                known: self.known,
-            },
+            (Some((low, _)), Some((_, high))) => Enclosure { low, high, known: self.known },
             _ => Self::nothing(),
         }
     }
@@ -426,28 +356,16 @@ impl Scalar for Enclosure {
 
     fn min(self, other: Self) -> Self {
         let known = self.known && other.known;
-        Enclosure {
-            low: std::cmp::min(self.low, other.low),
-            high: std::cmp::min(self.high, other.high),
-            known,
-        }
+        Enclosure { low: std::cmp::min(self.low, other.low), high: std::cmp::min(self.high, other.high), known }
     }
 
     fn max(self, other: Self) -> Self {
         let known = self.known && other.known;
-        Enclosure {
-            low: std::cmp::max(self.low, other.low),
-            high: std::cmp::max(self.high, other.high),
-            known,
-        }
+        Enclosure { low: std::cmp::max(self.low, other.low), high: std::cmp::max(self.high, other.high), known }
     }
 
     fn display(&self) -> f64 {
-        if self.known {
-            self.low.to_f64()
-        } else {
-            f64::NAN
-        }
+        if self.known { self.low.to_f64() } else { f64::NAN }
     }
 }
 
@@ -458,10 +376,7 @@ mod tests {
     #[test]
     fn roots_are_exact_where_they_can_be() {
         let nine_quarters = Rational::ratio(9, 4);
-        assert_eq!(
-            nine_quarters.root(),
-            Some((Rational::ratio(3, 2), Rational::ratio(3, 2)))
-        );
+        assert_eq!(nine_quarters.root(), Some((Rational::ratio(3, 2), Rational::ratio(3, 2))));
         let (low, high) = Rational::of(2.0).root().unwrap();
         assert!(low.squared() < Rational::of(2.0) && Rational::of(2.0) < high.squared());
         assert!((high - low) < Rational::of(2f64.powi(-155)));
@@ -496,35 +411,22 @@ mod tests {
     fn exact_values_stay_exact_and_no_others_are_taken_for_exact() {
         let of = Bounded::of;
         assert_eq!((of(0.5) + of(0.5)).compare(&of(1.0)), Some(Ordering::Equal));
-        assert_eq!(
-            (of(3.0) * of(5.0) / of(3.0)).compare(&of(5.0)),
-            Some(Ordering::Equal)
-        );
-        assert_eq!(
-            of(9.0 / 4.0).root().compare(&of(1.5)),
-            Some(Ordering::Equal)
-        );
+        assert_eq!((of(3.0) * of(5.0) / of(3.0)).compare(&of(5.0)), Some(Ordering::Equal));
+        assert_eq!(of(9.0 / 4.0).root().compare(&of(1.5)), Some(Ordering::Equal));
         // each result is rounded: its double is not the value
         let third = of(1.0) / of(3.0);
         let long = of(1.0 + f64::EPSILON);
         let tiny = of(1e-200) * of(1e-200);
-        for (inexact, double) in [
-            (third, 1.0 / 3.0),
-            (of(2.0).root(), 2f64.sqrt()),
-            (long * long, long.value * long.value),
-            (tiny, 0.0),
-        ] {
+        for (inexact, double) in
+            [(third, 1.0 / 3.0), (of(2.0).root(), 2f64.sqrt()), (long * long, long.value * long.value), (tiny, 0.0)]
+        {
             assert_eq!(inexact.compare(&of(double)), None, "{double}");
             assert!(inexact.low() < double && double < inexact.high());
         }
         // overflow and 0/0 are unknown
-        for unknown in [
-            of(1e200) * of(1e200),
-            of(f64::MAX) + of(f64::MAX),
-            of(0.0) / of(0.0),
-            of(1.0) / of(0.0),
-            of(-1.0).root(),
-        ] {
+        for unknown in
+            [of(1e200) * of(1e200), of(f64::MAX) + of(f64::MAX), of(0.0) / of(0.0), of(1.0) / of(0.0), of(-1.0).root()]
+        {
             assert_eq!(unknown.compare(&of(1.0)), None, "{unknown:?}");
         }
     }
@@ -534,9 +436,7 @@ mod tests {
         // (a + b)(c - d)/e against rationals, from digits few and many
         let mut state = 12345u64;
         let mut draw = |bits: u32| {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             let m = (state >> (64 - bits)) as f64 / 2f64.powi(bits as i32);
             m - 0.5
         };
@@ -551,10 +451,7 @@ mod tests {
                 v.clone().squared().root() - v.max(N::of(0.0))
             }
             let (fast, slow) = (formula::<Bounded>(x), formula::<Enclosure>(x));
-            assert!(
-                Rational::of(fast.low()) <= slow.high && slow.low <= Rational::of(fast.high()),
-                "{x:?}"
-            );
+            assert!(Rational::of(fast.low()) <= slow.high && slow.low <= Rational::of(fast.high()), "{x:?}");
         }
     }
 }

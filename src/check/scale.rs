@@ -20,10 +20,7 @@ impl Scale {
             let in_range = s == 0.0 || (power_of_two(-142)..=power_of_two(200)).contains(&size);
             let stored = x.is_finite() && s * up == x && x.to_bits() != (-0.0f64).to_bits();
             ensure(in_range && stored, Rule::Coordinate, || {
-                (
-                    "a coordinate within 2^-142..2^200 of the input's size, or +0",
-                    format!("{x:?}"),
-                )
+                ("a coordinate within 2^-142..2^200 of the input's size, or +0", format!("{x:?}"))
             })?;
         }
         Ok(scaled)

@@ -14,10 +14,7 @@ impl Replay {
     pub(super) fn rung(&self, split: &Split, shell: Option<Shell>) -> Option<(u32, f64)> {
         if let Some(Shell { apex, k }) = shell {
             // k was checked to be an exponent of lengths in the input, which are normal f64s
-            return Some((
-                apex.0,
-                f64::from_bits(((k + 1023).clamp(1, 2046) as u64) << 52),
-            ));
+            return Some((apex.0, f64::from_bits(((k + 1023).clamp(1, 2046) as u64) << 52)));
         }
         let choice = match split.kind {
             SplitKind::B => self.ledger.parameters.choice_b,
@@ -44,9 +41,7 @@ impl Replay {
         })?;
         let [u, v] = split.ends.map(|v| self.mesh.at(v));
         let fits = shell.is_none_or(|s| is_shell_exponent(u, v, s.k, self.scale.exponent));
-        ensure(fits, Rule::Shell, || {
-            ("k with |s|/3 < 2^k <= 2|s|/3", format!("{shell:?}"))
-        })
+        ensure(fits, Rule::Shell, || ("k with |s|/3 < 2^k <= 2|s|/3", format!("{shell:?}")))
     }
 
     /// Whether the small angle at `apex` excuses the skinny triangle t. Source: `docs/trace-format.md`, shells.

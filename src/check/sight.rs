@@ -22,9 +22,7 @@ pub enum Arrival {
 pub fn exit_edge(mesh: &Complex, t: u32, q: Point2) -> Option<u32> {
     let corners = mesh.places(t);
     let side = corners.map(|w| walk_side(corners, q, w));
-    (0..3)
-        .find(|&k| side[k].is_negative() && side[(k + 1) % 3].is_positive())
-        .map(|k| 4 * t + k as u32)
+    (0..3).find(|&k| side[k].is_negative() && side[(k + 1) % 3].is_positive()).map(|k| 4 * t + k as u32)
 }
 
 /// Walks from the centroid of t to q.
@@ -33,11 +31,7 @@ pub fn walk(mesh: &Complex, t: u32, q: Point2) -> Arrival {
     let Some(mut e) = exit_edge(mesh, t, q) else {
         // Through a corner, or q is the centroid itself: only the latter is fine.
         let inside = (0..3).all(|k| orient(corners[k], corners[(k + 1) % 3], q).is_positive());
-        return if inside {
-            Arrival::Triangle(t)
-        } else {
-            Arrival::Lost
-        };
+        return if inside { Arrival::Triangle(t) } else { Arrival::Lost };
     };
     for _ in 0..=mesh.slot_count() {
         let side = orient(mesh.at(mesh.origin(e)), mesh.at(mesh.target(e)), q);
@@ -61,9 +55,7 @@ pub fn walk(mesh: &Complex, t: u32, q: Point2) -> Arrival {
             Sign::Zero => {
                 // Fine only if q lies in this triangle, before its apex.
                 let (left, right) = (next(other), previous(other));
-                let within = |e: u32| {
-                    orient(mesh.at(mesh.origin(e)), mesh.at(mesh.target(e)), q).is_positive()
-                };
+                let within = |e: u32| orient(mesh.at(mesh.origin(e)), mesh.at(mesh.target(e)), q).is_positive();
                 return if within(left) && within(right) {
                     Arrival::Triangle(triangle_of(other))
                 } else {
@@ -150,22 +142,12 @@ impl Search {
         let twin = mesh.beyond(s);
         let holds = |gap: &Gap| match aim {
             Aim::Interior => true,
-            Aim::At(p) => {
-                orient(eye, gap.right, p).is_positive() && orient(eye, p, gap.left).is_positive()
-            }
+            Aim::At(p) => orient(eye, gap.right, p).is_positive() && orient(eye, p, gap.left).is_positive(),
         };
         self.gaps.clear();
         for e in mesh.star(w).filter(|&e| mesh.inside(e).is_some()) {
             let through = next(e);
-            self.gaps.extend(clipped(
-                mesh,
-                eye,
-                Gap {
-                    through,
-                    right,
-                    left,
-                },
-            ));
+            self.gaps.extend(clipped(mesh, eye, Gap { through, right, left }));
         }
         // A ray from the eye meets every triangle at most once, so this ends.
         while let Some(gap) = self.gaps.pop() {
@@ -191,29 +173,18 @@ impl Search {
 
     /// Collects in `found` the vertices strictly in one of the disks with the given diameters, reached from s (both sides) across
     /// edges that meet one of the disks and that the flood may cross.
-    pub fn vertices_in(
-        &mut self,
-        mesh: &Complex,
-        s: u32,
-        diameters: &[[Point2; 2]],
-        crosses: Crossing,
-    ) {
+    pub fn vertices_in(&mut self, mesh: &Complex, s: u32, diameters: &[[Point2; 2]], crosses: Crossing) {
         self.fresh(mesh);
         self.found.clear();
         self.edges.clear();
         for e in [s, mesh.beyond(s)] {
-            if e != NONE
-                && (crosses == Crossing::All || mesh.inside(e).is_some())
-                && self.mark(triangle_of(e))
-            {
+            if e != NONE && (crosses == Crossing::All || mesh.inside(e).is_some()) && self.mark(triangle_of(e)) {
                 self.edges.push(e);
             }
         }
         while let Some(e) = self.edges.pop() {
             let w = mesh.apex(e);
-            if diameters
-                .iter()
-                .any(|[u, v]| in_diametral_disk(*u, *v, mesh.at(w)))
+            if diameters.iter().any(|[u, v]| in_diametral_disk(*u, *v, mesh.at(w)))
                 && std::mem::replace(&mut self.vertex_stamp[w as usize], self.now) != self.now
             {
                 self.found.push(w);
@@ -225,10 +196,7 @@ impl Search {
                     continue;
                 }
                 let (a, b) = (mesh.at(mesh.origin(side)), mesh.at(mesh.target(side)));
-                if diameters
-                    .iter()
-                    .any(|[u, v]| meets_diametral_disk(*u, *v, a, b))
-                {
+                if diameters.iter().any(|[u, v]| meets_diametral_disk(*u, *v, a, b)) {
                     self.mark(triangle_of(other));
                     self.edges.push(other);
                 }
@@ -239,14 +207,9 @@ impl Search {
 
 /// The part of a gap's cone that passes through its edge; `None` if empty. Both cones are narrower than a half-plane.
 fn clipped(mesh: &Complex, eye: Point2, gap: Gap) -> Option<Gap> {
-    let (right, left) = (
-        mesh.at(mesh.origin(gap.through)),
-        mesh.at(mesh.target(gap.through)),
-    );
+    let (right, left) = (mesh.at(mesh.origin(gap.through)), mesh.at(mesh.target(gap.through)));
     // Whether the direction of x lies in the half-open cone from r to l.
-    let between = |r: Point2, x: Point2, l: Point2| {
-        !orient(eye, r, x).is_negative() && orient(eye, x, l).is_positive()
-    };
+    let between = |r: Point2, x: Point2, l: Point2| !orient(eye, r, x).is_negative() && orient(eye, x, l).is_positive();
     let start = if between(gap.right, right, gap.left) {
         right
     } else if between(right, gap.right, left) {
@@ -254,14 +217,6 @@ fn clipped(mesh: &Complex, eye: Point2, gap: Gap) -> Option<Gap> {
     } else {
         return None;
     };
-    let end = if orient(eye, left, gap.left).is_positive() {
-        left
-    } else {
-        gap.left
-    };
-    orient(eye, start, end).is_positive().then_some(Gap {
-        right: start,
-        left: end,
-        ..gap
-    })
+    let end = if orient(eye, left, gap.left).is_positive() { left } else { gap.left };
+    orient(eye, start, end).is_positive().then_some(Gap { right: start, left: end, ..gap })
 }

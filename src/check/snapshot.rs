@@ -12,12 +12,7 @@ impl Checker {
     /// The mesh after the last record, input units. Vertices carry no attributes, and only those inserted on segments a marker: the
     /// checker keeps none of the others. Empty before the first event or the end, since `start` is proved only then.
     pub fn mesh(&self) -> Mesh2 {
-        let State {
-            mesh,
-            exponent,
-            segments,
-            regions,
-        } = self.state();
+        let State { mesh, exponent, segments, regions } = self.state();
         let scale = power_of_two(exponent);
         let mut dense = vec![NONE; mesh.vertices.len()];
         let mut out = Mesh2::default();
@@ -26,30 +21,21 @@ impl Checker {
                 Kind::Deleted => continue,
                 Kind::Input => (VertexKind::Input, 0),
                 Kind::Free => (VertexKind::Free, 0),
-                Kind::B(s) | Kind::C(s) => (
-                    VertexKind::Segment(SegmentId(s)),
-                    segments[s as usize].marker,
-                ),
+                Kind::B(s) | Kind::C(s) => (VertexKind::Segment(SegmentId(s)), segments[s as usize].marker),
             };
             dense[v] = out.points.len() as u32;
-            out.points
-                .push(Point2::new(vertex.at.x * scale, vertex.at.y * scale));
+            out.points.push(Point2::new(vertex.at.x * scale, vertex.at.y * scale));
             out.kinds.push(kind);
             out.point_markers.push(marker);
         }
         let dense = |v: u32| VertexId(dense[v as usize]);
-        let mut triangles: Vec<_> = mesh
-            .triangles()
-            .map(|t| (canonical(mesh.corners(t)).map(dense), mesh.facts(t).region))
-            .collect();
+        let mut triangles: Vec<_> =
+            mesh.triangles().map(|t| (canonical(mesh.corners(t)).map(dense), mesh.facts(t).region)).collect();
         triangles.sort_unstable();
         out.triangles = triangles.iter().map(|(t, _)| *t).collect();
         if !regions.is_empty() {
             let attribute = |region: u32| regions.get(region as usize).map_or(0.0, |r| r.attribute);
-            out.triangle_attributes = triangles
-                .iter()
-                .map(|(_, region)| attribute(*region))
-                .collect();
+            out.triangle_attributes = triangles.iter().map(|(_, region)| attribute(*region)).collect();
         }
         let edge = |[u, v, s]: [u32; 3]| MeshEdge {
             ends: [dense(u), dense(v)],
@@ -78,17 +64,9 @@ impl Checker {
     pub fn smallest_angle(&self) -> Option<[VertexId; 3]> {
         let mesh = self.state().mesh;
         let places = |sector: [u32; 3]| sector.map(|v| mesh.at(v));
-        let acute = self
-            .sectors()
-            .iter()
-            .copied()
-            .filter(|s| sign_of!(cosine(places(*s))).is_positive());
+        let acute = self.sectors().iter().copied().filter(|s| sign_of!(cosine(places(*s))).is_positive());
         let sharper = |a: [u32; 3], b: [u32; 3]| {
-            if sign_of!(difference(places(a), places(b))).is_negative() {
-                b
-            } else {
-                a
-            }
+            if sign_of!(difference(places(a), places(b))).is_negative() { b } else { a }
         };
         acute.reduce(sharper).map(|sector| sector.map(VertexId))
     }
@@ -101,8 +79,7 @@ fn cosine<N: Number>([apex, p, q]: [Point2; 3]) -> N {
 
 /// Positive if the first of two acute angles is smaller: cos^2 a - cos^2 b, times positive factors.
 fn difference<N: Number>(a: [Point2; 3], b: [Point2; 3]) -> N {
-    let sides2 =
-        |[apex, p, q]: [Point2; 3]| norm2(&vector::<N>(apex, p)) * norm2(&vector::<N>(apex, q));
+    let sides2 = |[apex, p, q]: [Point2; 3]| norm2(&vector::<N>(apex, p)) * norm2(&vector::<N>(apex, q));
     let square = |x: N| x.clone() * x;
     square(cosine::<N>(a)) * sides2(b) - square(cosine::<N>(b)) * sides2(a)
 }

@@ -26,14 +26,10 @@ pub struct Domain {
 /// Adds a triangle of the initial triangulation: canonical, ascending, positive.
 pub fn add_triangle(mesh: &mut Complex, corner: [u32; 3], before: Option<[u32; 3]>) -> Checked {
     let known = corner.iter().all(|&v| (v as usize) < mesh.vertices.len());
-    ensure(known, Rule::Triangulation, || {
-        ("ids of input vertices", format!("{corner:?}"))
+    ensure(known, Rule::Triangulation, || ("ids of input vertices", format!("{corner:?}")))?;
+    ensure(corner[0] < corner[1] && corner[0] < corner[2], Rule::Canonical, || {
+        ("the smallest id first", format!("{corner:?}"))
     })?;
-    ensure(
-        corner[0] < corner[1] && corner[0] < corner[2],
-        Rule::Canonical,
-        || ("the smallest id first", format!("{corner:?}")),
-    )?;
     ensure(before.is_none_or(|b| b < corner), Rule::Canonical, || {
         ("ascending order", format!("{corner:?} after {before:?}"))
     })?;
@@ -41,16 +37,7 @@ pub fn add_triangle(mesh: &mut Complex, corner: [u32; 3], before: Option<[u32; 3
     ensure(orient(a, b, c).is_positive(), Rule::Triangulation, || {
         ("a counterclockwise triangle", format!("{corner:?}"))
     })?;
-    mesh.add(
-        corner,
-        Facts {
-            birth: 0,
-            region: NONE,
-            outside: false,
-            skipped_skinny: false,
-            skipped_oversized: false,
-        },
-    );
+    mesh.add(corner, Facts { birth: 0, region: NONE, outside: false, skipped_skinny: false, skipped_oversized: false });
     Ok(())
 }
 
@@ -112,16 +99,9 @@ fn check_border(mesh: &Complex) -> Checked {
         let ahead = (b.x - a.x) * (c.x - b.x) >= 0.0 && (b.y - a.y) * (c.y - b.y) >= 0.0;
         let turn = orient(a, b, c);
         // On one line, "ahead" needs signs of differences only, which floating subtraction gives right.
-        ensure(
-            turn.is_positive() || (!turn.is_negative() && ahead),
-            Rule::Triangulation,
-            || {
-                (
-                    "a convex border",
-                    format!("a turn to the right at vertex {}", mesh.target(e)),
-                )
-            },
-        )?;
+        ensure(turn.is_positive() || (!turn.is_negative() && ahead), Rule::Triangulation, || {
+            ("a convex border", format!("a turn to the right at vertex {}", mesh.target(e)))
+        })?;
         let smaller = |p: Point2, q: Point2| (p.x, p.y) < (q.x, q.y);
         turns += usize::from(smaller(b, a) && smaller(b, c));
         walked += 1;
@@ -129,15 +109,10 @@ fn check_border(mesh: &Complex) -> Checked {
         if e == first {
             break;
         }
-        ensure(walked <= total, Rule::Triangulation, || {
-            ("one closed border", "a border that does not close")
-        })?;
+        ensure(walked <= total, Rule::Triangulation, || ("one closed border", "a border that does not close"))?;
     }
     ensure(walked == total && turns == 1, Rule::Triangulation, || {
-        (
-            "one closed border that turns once",
-            format!("{walked} of {total} edges in one piece, {turns} turns"),
-        )
+        ("one closed border that turns once", format!("{walked} of {total} edges in one piece, {turns} turns"))
     })
 }
 
@@ -147,17 +122,10 @@ fn constrain(mesh: &mut Complex, segments: &[Segment]) -> Checked {
         let [VertexId(u), VertexId(v)] = segment.ends;
         let e = mesh.find_edge(u, v).or_else(|| mesh.find_edge(v, u));
         let Some(e) = e else {
-            return broken(
-                Rule::Segment,
-                format!("segment {i} as an edge"),
-                format!("no edge ({u}, {v})"),
-            );
+            return broken(Rule::Segment, format!("segment {i} as an edge"), format!("no edge ({u}, {v})"));
         };
         ensure(mesh.segment(e) == NONE, Rule::Segment, || {
-            (
-                "one segment on an edge",
-                format!("segments {} and {i}", mesh.segment(e)),
-            )
+            ("one segment on an edge", format!("segments {} and {i}", mesh.segment(e)))
         })?;
         mesh.join(e, mesh.beyond(e), i as u32);
     }
@@ -172,16 +140,9 @@ pub fn check_delaunay(mesh: &Complex) -> Checked {
             if other == NONE || other < e || mesh.segment(e) != NONE {
                 continue;
             }
-            ensure(
-                !in_conflict(mesh.places(t), mesh.at(mesh.apex(other))),
-                Rule::Delaunay,
-                || {
-                    (
-                        "a locally Delaunay edge",
-                        format!("edge ({}, {})", mesh.origin(e), mesh.target(e)),
-                    )
-                },
-            )?;
+            ensure(!in_conflict(mesh.places(t), mesh.at(mesh.apex(other))), Rule::Delaunay, || {
+                ("a locally Delaunay edge", format!("edge ({}, {})", mesh.origin(e), mesh.target(e)))
+            })?;
         }
     }
     Ok(())
@@ -203,10 +164,7 @@ pub fn carve(mesh: &mut Complex, domain: &Domain, search: &mut Search) -> Checke
             continue;
         }
         ensure(mesh.facts(t).region == NONE, Rule::Domain, || {
-            (
-                "one region seed in a face",
-                format!("seeds {} and {i}", mesh.facts(t).region),
-            )
+            ("one region seed in a face", format!("seeds {} and {i}", mesh.facts(t).region))
         })?;
         let mut face = Vec::new();
         flood_face(mesh, t, search, |t| face.push(t));
@@ -245,10 +203,7 @@ fn kept(mesh: &Complex, domain: &Domain) -> Checked<Vec<bool>> {
     while let Some((t, s)) = stack.pop() {
         let known = side[t as usize];
         ensure(known == UNSEEN || known == s, Rule::Domain, || {
-            (
-                "toggling segments in closed cycles",
-                format!("triangle {:?} both inside and outside", mesh.corners(t)),
-            )
+            ("toggling segments in closed cycles", format!("triangle {:?} both inside and outside", mesh.corners(t)))
         })?;
         if known != UNSEEN {
             continue;
@@ -270,11 +225,7 @@ pub fn check_bounded(mesh: &Complex) -> Checked {
     let mut edges = mesh.triangles().flat_map(|t| 4 * t..4 * t + 3);
     let open = edges.find(|&e| mesh.inside(mesh.beyond(e)).is_none() && mesh.segment(e) == NONE);
     open.map_or(Ok(()), |e| {
-        broken(
-            Rule::Domain,
-            "a region bounded by segments",
-            format!("edge {:?}", [mesh.origin(e), mesh.target(e)]),
-        )
+        broken(Rule::Domain, "a region bounded by segments", format!("edge {:?}", [mesh.origin(e), mesh.target(e)]))
     })
 }
 
@@ -297,9 +248,8 @@ fn flood_face(mesh: &Complex, t: u32, search: &mut Search, mut visit: impl FnMut
 /// A triangle whose closure holds q; `None` outside the hull. A seed on a segment is an error.
 fn locate(mesh: &Complex, q: Point2, what: &str, number: usize) -> Checked<Option<u32>> {
     let outward = |t: u32, from: u32| {
-        (4 * t..4 * t + 3).find(|&e| {
-            e != from && orient(mesh.at(mesh.origin(e)), mesh.at(mesh.target(e)), q).is_negative()
-        })
+        (4 * t..4 * t + 3)
+            .find(|&e| e != from && orient(mesh.at(mesh.origin(e)), mesh.at(mesh.target(e)), q).is_negative())
     };
     // A visibility walk; in a constrained triangulation it may circle, then every triangle is tried.
     let (mut t, mut from) = (0, NONE);
@@ -326,10 +276,7 @@ fn locate(mesh: &Complex, q: Point2, what: &str, number: usize) -> Checked<Optio
     });
     let on_vertex = mesh.places(t).contains(&q);
     ensure(!on_segment && !on_vertex, Rule::Domain, || {
-        (
-            "a seed strictly inside a face",
-            format!("{what} seed {number} on a segment or vertex"),
-        )
+        ("a seed strictly inside a face", format!("{what} seed {number} on a segment or vertex"))
     })?;
     Ok(Some(t))
 }
@@ -341,10 +288,7 @@ fn measure_input(mesh: &mut Complex) {
         for e in mesh.star(v).filter(|&e| mesh.inside(e).is_some()) {
             // The last edge of an open star is incoming only.
             for w in [mesh.target(e), mesh.origin(previous(e))] {
-                if nearest == v
-                    || compare_lengths(mesh.at(v), mesh.at(w), mesh.at(v), mesh.at(nearest))
-                        .is_negative()
-                {
+                if nearest == v || compare_lengths(mesh.at(v), mesh.at(w), mesh.at(v), mesh.at(nearest)).is_negative() {
                     nearest = w;
                 }
             }

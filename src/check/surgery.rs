@@ -19,21 +19,11 @@ impl Replay {
     ///      /   \             / | \
     ///     x     y    --->   x--p--y     for every edge xy of the cavity's rim
     pub(super) fn fan(&mut self, p: u32, rim: std::ops::Range<usize>, region: u32) {
-        let facts = Facts {
-            birth: birth(self.event),
-            region,
-            outside: false,
-            skipped_skinny: false,
-            skipped_oversized: false,
-        };
+        let facts =
+            Facts { birth: birth(self.event), region, outside: false, skipped_skinny: false, skipped_oversized: false };
         let mut before = NONE;
         for i in rim {
-            let Rim {
-                from,
-                to,
-                outer,
-                segment,
-            } = self.rim[i];
+            let Rim { from, to, outer, segment } = self.rim[i];
             let t = self.mesh.add([from, to, p], facts);
             self.mesh.join(4 * t, outer, segment);
             if before != NONE {
@@ -48,13 +38,8 @@ impl Replay {
         let [u, v] = split.ends;
         let find = |mesh: &Complex, a, b| mesh.find_edge(a, b).unwrap_or(NONE);
         let sides = [find(&self.mesh, u, v), find(&self.mesh, v, u)];
-        let segment = sides
-            .iter()
-            .find(|&&e| e != NONE)
-            .map_or(NONE, |&e| self.mesh.segment(e));
-        ensure(segment != NONE, Rule::Segment, || {
-            ("a subsegment", format!("({u}, {v})"))
-        })?;
+        let segment = sides.iter().find(|&&e| e != NONE).map_or(NONE, |&e| self.mesh.segment(e));
+        ensure(segment != NONE, Rule::Segment, || ("a subsegment", format!("({u}, {v})")))?;
         self.begin_flood();
         let mut rims = [0..0, 0..0];
         let mut regions = [NONE; 2];
@@ -63,19 +48,14 @@ impl Replay {
                 // Else the rounded p is so far off s that the edge from it to the apex is not Delaunay.
                 let bulges = in_conflict(self.mesh.places(t), split.p);
                 ensure(bulges, Rule::Delaunay, || {
-                    (
-                        "a point in conflict with the triangles at its subsegment",
-                        format!("{:?}", split.p),
-                    )
+                    ("a point in conflict with the triangles at its subsegment", format!("{:?}", split.p))
                 })?;
                 let (start, triangles) = (self.rim.len(), self.destroyed.len());
                 regions[i] = self.mesh.facts(t).region;
                 self.flood_root(t, &[next(e), previous(e)], split.p);
                 rims[i] = start..self.rim.len();
                 let tree = rims[i].len() == self.destroyed.len() - triangles + 1;
-                ensure(tree, Rule::Star, || {
-                    ("a cavity that encloses no vertex", "one that does")
-                })?;
+                ensure(tree, Rule::Star, || ("a cavity that encloses no vertex", "one that does"))?;
             }
         }
         self.compare_flood(destroyed)?;
@@ -92,10 +72,7 @@ impl Replay {
             if !rims[i].is_empty() {
                 let start = self.created.len();
                 self.fan(p, rims[i].clone(), regions[i]);
-                halves[i] = [
-                    4 * self.created[self.created.len() - 1] + 1,
-                    4 * self.created[start] + 2,
-                ];
+                halves[i] = [4 * self.created[self.created.len() - 1] + 1, 4 * self.created[start] + 2];
             } else if sides[i] != NONE {
                 halves[i] = self.split_outside(sides[i], p);
             }
@@ -113,10 +90,7 @@ impl Replay {
         let rim = [next(e), previous(e)].map(|e| (self.mesh.beyond(e), self.mesh.segment(e)));
         let facts = *self.mesh.facts(t);
         self.mesh.drop(t);
-        let (left, right) = (
-            self.mesh.add([u, p, a], facts),
-            self.mesh.add([p, v, a], facts),
-        );
+        let (left, right) = (self.mesh.add([u, p, a], facts), self.mesh.add([p, v, a], facts));
         self.mesh.join(4 * right + 1, rim[0].0, rim[0].1);
         self.mesh.join(4 * left + 2, rim[1].0, rim[1].1);
         self.mesh.join(4 * left + 1, 4 * right + 2, NONE);
@@ -148,36 +122,22 @@ impl Replay {
                     continue;
                 }
             }
-            self.rim.push(Rim {
-                from: self.mesh.origin(e),
-                to: self.mesh.target(e),
-                outer,
-                segment,
-            });
+            self.rim.push(Rim { from: self.mesh.origin(e), to: self.mesh.target(e), outer, segment });
         }
     }
 
     pub(super) fn compare_flood(&self, destroyed: &[Triangle]) -> Checked {
-        let own = || {
-            self.destroyed
-                .iter()
-                .map(|&t| canonical(self.mesh.corners(t)))
-        };
+        let own = || self.destroyed.iter().map(|&t| canonical(self.mesh.corners(t)));
         let listed = || destroyed.iter().map(|&t| numbers(t));
         let text = |ids: Vec<[u32; 3]>| format!("{ids:?}");
-        ensure(own().eq(listed()), Rule::Flood, || {
-            (text(own().collect()), text(listed().collect()))
-        })
+        ensure(own().eq(listed()), Rule::Flood, || (text(own().collect()), text(listed().collect())))
     }
 
     pub(super) fn check_positive(&self, p: Point2) -> Checked {
         for rim in &self.rim {
             let positive = orient(self.mesh.at(rim.from), self.mesh.at(rim.to), p).is_positive();
             ensure(positive, Rule::Star, || {
-                (
-                    "counterclockwise new triangles",
-                    format!("({}, {}, {p:?})", rim.from, rim.to),
-                )
+                ("counterclockwise new triangles", format!("({}, {}, {p:?})", rim.from, rim.to))
             })?;
         }
         Ok(())
@@ -190,29 +150,15 @@ impl Replay {
         for e in self.mesh.star(w.vertex) {
             let (outer, segment) = (self.mesh.beyond(next(e)), self.mesh.segment(next(e)));
             let closed = self.mesh.beyond(e) != NONE && self.mesh.segment(e) == NONE;
-            ensure(closed, Rule::Star, || {
-                (
-                    "a star of unconstrained edges",
-                    format!("vertex {}", w.vertex),
-                )
-            })?;
-            self.rim.push(Rim {
-                from: self.mesh.origin(next(e)),
-                to: self.mesh.origin(previous(e)),
-                outer,
-                segment,
-            });
+            ensure(closed, Rule::Star, || ("a star of unconstrained edges", format!("vertex {}", w.vertex)))?;
+            self.rim.push(Rim { from: self.mesh.origin(next(e)), to: self.mesh.origin(previous(e)), outer, segment });
             self.destroyed.push(triangle_of(e));
         }
         let Some(&t) = self.destroyed.first() else {
             return broken(Rule::Star, "a star", "none");
         };
-        let facts = Facts {
-            birth: birth(self.event),
-            skipped_skinny: false,
-            skipped_oversized: false,
-            ..*self.mesh.facts(t)
-        };
+        let facts =
+            Facts { birth: birth(self.event), skipped_skinny: false, skipped_oversized: false, ..*self.mesh.facts(t) };
         self.check_filling(w)?;
         self.destroyed.iter().for_each(|&t| self.mesh.drop(t));
         self.links.clear();
@@ -224,8 +170,7 @@ impl Replay {
             let t = self.mesh.add(self.filling[i], facts);
             self.created.push(t);
             for e in 4 * t..4 * t + 3 {
-                self.links
-                    .push((self.mesh.origin(e), self.mesh.target(e), e, 1));
+                self.links.push((self.mesh.origin(e), self.mesh.target(e), e, 1));
             }
         }
         self.link_filling()?;
@@ -242,28 +187,17 @@ impl Replay {
     pub(super) fn check_filling(&self, w: Waiting) -> Checked {
         let filling = &self.filling[w.start..w.end];
         ensure(filling.len() + 2 == self.rim.len(), Rule::Star, || {
-            (
-                format!("{} triangles", self.rim.len() - 2),
-                format!("{}", filling.len()),
-            )
+            (format!("{} triangles", self.rim.len() - 2), format!("{}", filling.len()))
         })?;
-        ensure(
-            filling.windows(2).all(|p| p[0] < p[1]),
-            Rule::Canonical,
-            || ("ascending order", format!("{filling:?}")),
-        )?;
+        ensure(filling.windows(2).all(|p| p[0] < p[1]), Rule::Canonical, || {
+            ("ascending order", format!("{filling:?}"))
+        })?;
         for &t in filling {
             let known = t.iter().all(|&v| self.rim.iter().any(|r| r.from == v));
-            ensure(known, Rule::Star, || {
-                ("vertices of the star's rim", format!("{t:?}"))
-            })?;
-            ensure(canonical(t) == t, Rule::Canonical, || {
-                ("the smallest id first", format!("{t:?}"))
-            })?;
+            ensure(known, Rule::Star, || ("vertices of the star's rim", format!("{t:?}")))?;
+            ensure(canonical(t) == t, Rule::Canonical, || ("the smallest id first", format!("{t:?}")))?;
             let [a, b, c] = t.map(|v| self.mesh.at(v));
-            ensure(orient(a, b, c).is_positive(), Rule::Star, || {
-                ("counterclockwise triangles", format!("{t:?}"))
-            })?;
+            ensure(orient(a, b, c).is_positive(), Rule::Star, || ("counterclockwise triangles", format!("{t:?}")))?;
         }
         Ok(())
     }
@@ -276,9 +210,7 @@ impl Replay {
             let (a, Some(b)) = (self.links[i], self.links.get(i + 1).copied()) else {
                 return broken(Rule::Star, "edges in pairs", "one left over");
             };
-            ensure((a.0, a.1) == (b.1, b.0), Rule::Star, || {
-                ("edges in pairs", format!("({}, {}) alone", a.0, a.1))
-            })?;
+            ensure((a.0, a.1) == (b.1, b.0), Rule::Star, || ("edges in pairs", format!("({}, {}) alone", a.0, a.1)))?;
             match ((a.2, a.3), (b.2, b.3)) {
                 ((e, 1), (other, 1)) => self.mesh.join(e, other, NONE),
                 ((e, 1), (i, _)) | ((i, _), (e, 1)) => {
@@ -286,11 +218,7 @@ impl Replay {
                     self.mesh.join(e, rim.outer, rim.segment);
                 }
                 _ => {
-                    return broken(
-                        Rule::Star,
-                        "a rim that the filling meets",
-                        format!("({}, {}) empty", a.0, a.1),
-                    );
+                    return broken(Rule::Star, "a rim that the filling meets", format!("({}, {}) empty", a.0, a.1));
                 }
             }
         }
@@ -304,10 +232,7 @@ impl Replay {
                 || other == NONE
                 || !in_conflict(self.mesh.places(t), self.mesh.at(self.mesh.apex(other)));
             ensure(holds, Rule::Delaunay, || {
-                (
-                    "a locally Delaunay edge",
-                    format!("edge ({}, {})", self.mesh.origin(e), self.mesh.target(e)),
-                )
+                ("a locally Delaunay edge", format!("edge ({}, {})", self.mesh.origin(e), self.mesh.target(e)))
             })?;
         }
         Ok(())

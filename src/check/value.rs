@@ -96,10 +96,7 @@ impl Sub for Approx {
     type Output = Approx;
     #[inline]
     fn sub(self, other: Approx) -> Approx {
-        self + Approx {
-            value: -other.value,
-            error: other.error,
-        }
+        self + Approx { value: -other.value, error: other.error }
     }
 }
 
@@ -114,31 +111,20 @@ impl Mul for Approx {
                 return Approx { value, error: 0.0 };
             }
         }
-        let inherited = self.value.abs() * other.error
-            + other.value.abs() * self.error
-            + self.error * other.error;
-        Approx {
-            value,
-            error: inherited + UNIT * value.abs() + TINY,
-        }
+        let inherited = self.value.abs() * other.error + other.value.abs() * self.error + self.error * other.error;
+        Approx { value, error: inherited + UNIT * value.abs() + TINY }
     }
 }
 
 impl Number for Approx {
     fn scaled(x: f64, exponent: i32) -> Approx {
         if exponent == 0 {
-            return Approx {
-                value: x,
-                error: 0.0,
-            };
+            return Approx { value: x, error: 0.0 };
         }
         let value = x * power_of_two(exponent);
         // Outside the range of f64 the rational decides.
         let exact = SAFE.contains(&value.abs()) || x == 0.0;
-        Approx {
-            value,
-            error: if exact { 0.0 } else { f64::INFINITY },
-        }
+        Approx { value, error: if exact { 0.0 } else { f64::INFINITY } }
     }
 
     #[inline]

@@ -144,11 +144,7 @@ impl fmt::Display for Place {
 
 impl fmt::Display for Rejection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{}: rule {}: expected {}, found {}",
-            self.event, self.rule, self.expected, self.found
-        )
+        write!(f, "{}: rule {}: expected {}, found {}", self.event, self.rule, self.expected, self.found)
     }
 }
 
@@ -168,19 +164,11 @@ pub type Checked<T = ()> = Result<T, Broken>;
 
 /// A refusal.
 pub fn broken<T>(rule: Rule, expected: impl Into<String>, found: impl Into<String>) -> Checked<T> {
-    Err(Broken {
-        rule,
-        expected: expected.into(),
-        found: found.into(),
-    })
+    Err(Broken { rule, expected: expected.into(), found: found.into() })
 }
 
 /// Passes if the fact holds; else the two texts are made.
-pub fn ensure<E: Into<String>, F: Into<String>>(
-    holds: bool,
-    rule: Rule,
-    texts: impl FnOnce() -> (E, F),
-) -> Checked {
+pub fn ensure<E: Into<String>, F: Into<String>>(holds: bool, rule: Rule, texts: impl FnOnce() -> (E, F)) -> Checked {
     if holds {
         return Ok(());
     }
@@ -190,10 +178,5 @@ pub fn ensure<E: Into<String>, F: Into<String>>(
 
 /// Gives a broken rule its place.
 pub fn placed(broken: Broken, event: Place) -> Rejection {
-    Rejection {
-        event,
-        rule: broken.rule,
-        expected: broken.expected,
-        found: broken.found,
-    }
+    Rejection { event, rule: broken.rule, expected: broken.expected, found: broken.found }
 }

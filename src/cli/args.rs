@@ -1,8 +1,6 @@
 //! What can be typed.
 
-use crate::model::{
-    Choice, DeletionPolicy, DiskChoice, Level, QueueOrder, SmallAngles, VertexOfTriangle,
-};
+use crate::model::{Choice, DeletionPolicy, DiskChoice, Level, QueueOrder, SmallAngles, VertexOfTriangle};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::de::DeserializeOwned;
@@ -68,12 +66,7 @@ pub struct MeshArgs {
 #[derive(Args, Debug)]
 pub struct QualityArgs {
     /// Least angle of a triangle, in degrees
-    #[arg(
-        long,
-        value_name = "DEG",
-        default_value_t = 25.0,
-        conflicts_with = "rho2"
-    )]
+    #[arg(long, value_name = "DEG", default_value_t = 25.0, conflicts_with = "rho2")]
     pub min_angle: f64,
     /// Instead of an angle: the square of the bound rho on circumradius over shortest edge
     #[arg(long, value_name = "X")]
@@ -291,13 +284,7 @@ pub struct ConvertArgs {
     pub to: PathBuf,
 }
 
-const DISK: &[&str] = &[
-    "center",
-    "extreme",
-    "random",
-    "offcenter",
-    "clamped-offcenter",
-];
+const DISK: &[&str] = &["center", "extreme", "random", "offcenter", "clamped-offcenter"];
 const INTERVAL: &[&str] = &["center", "extreme", "random"];
 
 /// A parser of names that traces use too.
@@ -305,6 +292,5 @@ fn name<T: DeserializeOwned + Clone + Send + Sync + 'static>(
     names: &'static [&'static str],
 ) -> impl TypedValueParser<Value = T> {
     // The names listed are those of the data's own text form.
-    PossibleValuesParser::new(names)
-        .map(|s| serde_json::from_value(s.into()).expect("a name of the text form"))
+    PossibleValuesParser::new(names).map(|s| serde_json::from_value(s.into()).expect("a name of the text form"))
 }

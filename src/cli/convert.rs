@@ -17,10 +17,7 @@ pub fn run(args: &ConvertArgs) -> Answer {
     match [&args.from, &args.to].map(|path| trace_format(path)) {
         [Some(_), Some(to)] => convert_trace(&args.from, &args.to, to, &mut staged)?,
         [Some(_), None] => {
-            return Err(Failure::at(
-                &args.to,
-                "a trace converts to .jsonl or .obt; `replay` makes a mesh of it",
-            ));
+            return Err(Failure::at(&args.to, "a trace converts to .jsonl or .obt; `replay` makes a mesh of it"));
         }
         [None, Some(_)] => return Err(Failure::at(&args.from, "only a trace converts to a trace")),
         [None, None] if is_graph(&args.from) => graph(args, &mut staged)?,
@@ -45,10 +42,7 @@ fn is_graph(path: &Path) -> bool {
 /// A graph becomes a `.poly` file. One whose faces alternate loses that, and it is told: only hole seeds could say it there.
 fn graph(args: &ConvertArgs, staged: &mut Staged) -> Result<(), Failure> {
     if Format::of(&args.to) != Some(Format::Poly) {
-        return Err(Failure::at(
-            &args.to,
-            "a planar straight line graph converts to .poly; `mesh` makes a mesh of it",
-        ));
+        return Err(Failure::at(&args.to, "a planar straight line graph converts to .poly; `mesh` makes a mesh of it"));
     }
     let input = read_input(&args.from)?.map_err(|e| Failure::at(&args.from, e))?;
     for note in &input.notes {
@@ -72,12 +66,7 @@ pub fn trace_format(path: &Path) -> Option<trace::Format> {
 }
 
 /// Refuses a trace whose stored digest is not its own, which writing it anew would hide.
-fn convert_trace(
-    from: &Path,
-    to: &Path,
-    format: trace::Format,
-    staged: &mut Staged,
-) -> Result<(), Failure> {
+fn convert_trace(from: &Path, to: &Path, format: trace::Format, staged: &mut Staged) -> Result<(), Failure> {
     let mut reader = Reader::new(open(from)?);
     let mut writer = Writer::new(staged.create(to)?, format);
     while let Some(record) = reader.next() {
@@ -85,10 +74,7 @@ fn convert_trace(
         if let Record::End(end) = &record
             && end.trace != reader.digest()
         {
-            return Err(Failure::at(
-                from,
-                "the digest of the trace does not fit its content",
-            ));
+            return Err(Failure::at(from, "the digest of the trace does not fit its content"));
         }
         writer.record(&record).map_err(|e| Failure::at(to, e))?;
     }

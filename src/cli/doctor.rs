@@ -10,8 +10,7 @@ use serde_json::json;
 /// Lists all findings, errors first. Exit code 1 if there is an error among them.
 pub fn run(args: &DoctorArgs) -> Answer {
     let loaded = load_examined(&args.input, args.convex.then_some(Fill::Convex))?;
-    let [errors, repairs, notes] =
-        [Severity::Error, Severity::Repair, Severity::Note].map(|s| loaded.count(s));
+    let [errors, repairs, notes] = [Severity::Error, Severity::Repair, Severity::Note].map(|s| loaded.count(s));
     if args.json {
         data(json!({
             "verdict": if errors == 0 { "sound" } else { "refused" },
@@ -22,13 +21,7 @@ pub fn run(args: &DoctorArgs) -> Answer {
         for entry in &loaded.entries {
             data(&entry.text)?;
         }
-        data(format_args!(
-            "{errors} errors, {repairs} repairs, {notes} notes"
-        ))?;
+        data(format_args!("{errors} errors, {repairs} repairs, {notes} notes"))?;
     }
-    Ok(if errors == 0 {
-        Status::Well
-    } else {
-        Status::No
-    })
+    Ok(if errors == 0 { Status::Well } else { Status::No })
 }

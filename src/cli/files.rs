@@ -13,16 +13,12 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 
 /// A file to be read bit by bit.
 pub fn open(path: &Path) -> Result<BufReader<File>, Failure> {
-    File::open(path)
-        .map(|file| BufReader::with_capacity(1 << 16, file))
-        .map_err(|e| Failure::at(path, e))
+    File::open(path).map(|file| BufReader::with_capacity(1 << 16, file)).map_err(|e| Failure::at(path, e))
 }
 
 /// The extension of a path in lower case; empty if it has none.
 pub fn extension(path: &Path) -> String {
-    path.extension()
-        .map(|e| e.to_string_lossy().to_lowercase())
-        .unwrap_or_default()
+    path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
 /// Reads files of the same name in other formats, where they exist.
@@ -33,9 +29,7 @@ pub fn companion(path: &Path) -> impl FnMut(Format) -> Option<Vec<u8>> {
 /// Reads a mesh by its extension.
 pub fn read_mesh(path: &Path) -> Result<ForeignMesh, Failure> {
     let known = || Failure::at(path, "meshes are read from .vtu, .msh, .off, .node, .ele");
-    let format = Format::of(path)
-        .filter(|f| f.reads_mesh())
-        .ok_or_else(known)?;
+    let format = Format::of(path).filter(|f| f.reads_mesh()).ok_or_else(known)?;
     let bytes = read(path)?;
     let mesh = io::read_mesh(format, &bytes, companion(path)).ok_or_else(known)?;
     mesh.map_err(|e| Failure::at(path, e))
@@ -64,11 +58,7 @@ impl Staged {
         hidden.push(name);
         hidden.push(format!(".{}", std::process::id()));
         let present = path.with_file_name(hidden);
-        let file = OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&present)
-            .map_err(|e| Failure::at(path, e))?;
+        let file = OpenOptions::new().write(true).create_new(true).open(&present).map_err(|e| Failure::at(path, e))?;
         self.files.push((path.to_path_buf(), present));
         Ok(BufWriter::with_capacity(1 << 16, file))
     }
@@ -76,9 +66,7 @@ impl Staged {
     /// Writes a whole file that is to appear at `path`.
     pub fn write(&mut self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let mut file = self.create(path)?;
-        file.write_all(bytes)
-            .and_then(|()| file.flush())
-            .map_err(|e| Failure::at(path, e))
+        file.write_all(bytes).and_then(|()| file.flush()).map_err(|e| Failure::at(path, e))
     }
 
     /// Where the file that is to appear at `path` is now.

@@ -41,19 +41,12 @@ pub fn load_examined(path: &Path, fill: Option<Fill>) -> Result<Loaded, Failure>
     load_with(path, fill, examine::<FastKernel>)
 }
 
-fn load_with(
-    path: &Path,
-    fill: Option<Fill>,
-    make: fn(&Pslg, &Lines) -> Prepared,
-) -> Result<Loaded, Failure> {
+fn load_with(path: &Path, fill: Option<Fill>, make: fn(&Pslg, &Lines) -> Prepared) -> Result<Loaded, Failure> {
     let mut input = match read_input(path)? {
         Ok(input) => input,
         Err(e) => {
             let prepared = Prepared::default();
-            return Ok(Loaded {
-                prepared,
-                entries: vec![syntax(&e)],
-            });
+            return Ok(Loaded { prepared, entries: vec![syntax(&e)] });
         }
     };
     if let Some(fill) = fill {
@@ -69,9 +62,7 @@ fn load_with(
 /// Reads an input by its extension; the inner error is a fault of its content.
 pub fn read_input(path: &Path) -> Result<Result<Input, ReadError>, Failure> {
     let known = || Failure::at(path, "inputs are .poly, .node, .wkt, .geojson");
-    let format = Format::of(path)
-        .filter(|f| f.reads_pslg())
-        .ok_or_else(known)?;
+    let format = Format::of(path).filter(|f| f.reads_pslg()).ok_or_else(known)?;
     let bytes = read(path)?;
     io::read_pslg(format, &bytes, companion(path)).ok_or_else(known)
 }
@@ -90,17 +81,11 @@ impl Loaded {
 
     /// Tells that the input is refused, and why: all errors on stderr, all findings on stdout if a program listens.
     pub fn tell_refusal(&self, path: &Path, json: bool) -> Result<(), Failure> {
-        for entry in self
-            .entries
-            .iter()
-            .filter(|e| e.severity == Severity::Error)
-        {
+        for entry in self.entries.iter().filter(|e| e.severity == Severity::Error) {
             talk(format_args!("{}: {}", path.display(), entry.text));
         }
         if json {
-            data(
-                json!({"outcome": "refused", "input": path.display().to_string(), "findings": self.json()}),
-            )?;
+            data(json!({"outcome": "refused", "input": path.display().to_string(), "findings": self.json()}))?;
         }
         Ok(())
     }
@@ -112,10 +97,7 @@ impl Loaded {
 
     /// How many findings have a severity.
     pub fn count(&self, severity: Severity) -> usize {
-        self.entries
-            .iter()
-            .filter(|e| e.severity == severity)
-            .count()
+        self.entries.iter().filter(|e| e.severity == severity).count()
     }
 }
 
@@ -123,30 +105,18 @@ impl Loaded {
 pub fn finding(f: &Finding) -> Entry {
     // Plain data has a JSON form.
     let json = serde_json::to_value(f).expect("findings are plain data");
-    Entry {
-        severity: f.severity(),
-        text: f.to_string(),
-        json,
-    }
+    Entry { severity: f.severity(), text: f.to_string(), json }
 }
 
 fn syntax(e: &ReadError) -> Entry {
     let line = (e.line > 0).then_some(e.line);
-    let message = if e.element.is_empty() {
-        e.problem.clone()
-    } else {
-        format!("{}: {}", e.element, e.problem)
-    };
+    let message = if e.element.is_empty() { e.problem.clone() } else { format!("{}: {}", e.element, e.problem) };
     let column = (e.column > 0).then_some(e.column);
     let json = json!({
         "severity": "error", "kind": "syntax", "part": e.part, "elements": [], "coordinates": [],
         "line": line, "column": column, "message": message, "fix": e.fix,
     });
-    Entry {
-        severity: Severity::Error,
-        text: format!("error: {e}"),
-        json,
-    }
+    Entry { severity: Severity::Error, text: format!("error: {e}"), json }
 }
 
 fn note(n: &Note) -> Entry {
@@ -159,9 +129,5 @@ fn note(n: &Note) -> Entry {
     let json = json!({
         "severity": name, "kind": "format", "elements": [], "coordinates": [], "line": line, "message": n.text, "fix": "none needed",
     });
-    Entry {
-        severity,
-        text: format!("{name}: {}{place}", n.text),
-        json,
-    }
+    Entry { severity, text: format!("{name}: {}{place}", n.text), json }
 }

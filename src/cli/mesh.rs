@@ -32,51 +32,32 @@ enum Task<'a> {
 pub fn run(args: &MeshArgs) -> Answer {
     let parameters = parameters(args)?;
     let fill = args.convex.then_some(Fill::Convex);
-    perform(
-        &args.input,
-        fill,
-        &Task::Refine(&parameters),
-        &args.run,
-        &args.out,
-    )
+    perform(&args.input, fill, &Task::Refine(&parameters), &args.run, &args.out)
 }
 
 /// Triangulates an input.
 pub fn triangulate(args: &TriangulateArgs) -> Answer {
     if args.weights {
-        return Err(Failure::new(
-            "--weights: weighted points are not triangulated in the plane in this version",
-        ));
+        return Err(Failure::new("--weights: weighted points are not triangulated in the plane in this version"));
     }
-    perform(
-        &args.points,
-        Some(Fill::Convex),
-        &Task::Triangulate,
-        &args.run,
-        &args.out,
-    )
+    perform(&args.points, Some(Fill::Convex), &Task::Triangulate, &args.run, &args.out)
 }
 
 fn perform(path: &Path, fill: Option<Fill>, task: &Task, how: &RunArgs, out: &OutArgs) -> Answer {
     spare_input(&out.output, path)?;
     if how.max_seconds.is_some_and(|s| s.is_nan() || s < 0.0) {
-        return Err(Failure::new(
-            "--max-seconds: must be a number of seconds, 0 or more",
-        ));
+        return Err(Failure::new("--max-seconds: must be a number of seconds, 0 or more"));
     }
-    let format =
-        match &out.trace {
-            None => None,
-            Some(trace) => Some(trace_format(trace).ok_or_else(|| {
-                Failure::at(trace, "traces end in .jsonl (text) or .obt (binary)")
-            })?),
-        };
+    let format = match &out.trace {
+        None => None,
+        Some(trace) => Some(
+            trace_format(trace).ok_or_else(|| Failure::at(trace, "traces end in .jsonl (text) or .obt (binary)"))?,
+        ),
+    };
     let mut loaded = load(path, fill)?;
     if let Task::Triangulate = task {
         // The hull is triangulated whole: that no region is closed, or where seeds lie, is no matter.
-        loaded
-            .entries
-            .retain(|e| e.json["kind"] != "no-closed-region");
+        loaded.entries.retain(|e| e.json["kind"] != "no-closed-region");
     }
     if loaded.refused() {
         loaded.tell_refusal(path, out.json)?;
@@ -87,38 +68,19 @@ fn perform(path: &Path, fill: Option<Fill>, task: &Task, how: &RunArgs, out: &Ou
     let mut staged = Staged::default();
     let begun = Instant::now();
     let mut limit = Limit::new(how.max_seconds);
-    let outcome = traced(
-        &loaded.prepared.pslg,
-        task,
-        how,
-        out,
-        format,
-        &mut staged,
-        &mut limit,
-    );
+    let outcome = traced(&loaded.prepared.pslg, task, how, out, format, &mut staged, &mut limit);
     let (run, trace_digest, memory) = match outcome? {
         Ok(done) => done,
         Err(e) => return refused(e, task, &mut loaded, path, out.json),
     };
     let seconds = begun.elapsed().as_secs_f64();
     let mirror = if how.mirror {
-        Some(mirrored(
-            &loaded.prepared.pslg,
-            task,
-            how,
-            &limit,
-            first_trace(out, &staged, &memory)?,
-        )?)
+        Some(mirrored(&loaded.prepared.pslg, task, how, &limit, first_trace(out, &staged, &memory)?)?)
     } else {
         None
     };
     let quality = Quality::of(&run.mesh, &run.unmet);
-    let files = stage(
-        &out.output,
-        &run.mesh,
-        Some(&loaded.prepared.pslg),
-        &mut staged,
-    )?;
+    let files = stage(&out.output, &run.mesh, Some(&loaded.prepared.pslg), &mut staged)?;
     staged.commit()?;
     let digests = [Some(mesh_digest(&run.mesh)), trace_digest];
     tell(&run, &quality, &digests, seconds, mirror.as_ref());
@@ -161,17 +123,9 @@ fn traced(
 ) -> Result<Result<Traced, RunError>, Failure> {
     let mut go = |sink: &mut dyn Sink| {
         let mut stop = || limit.ask();
-        let mut options = Options {
-            max_steps: how.max_steps,
-            stop: Some(&mut stop),
-            ..Options::default()
-        };
+        let mut options = Options { max_steps: how.max_steps, stop: Some(&mut stop), ..Options::default() };
         with_kernel(
-            if how.mirror {
-                KernelName::Fast
-            } else {
-                how.kernel
-            },
+            if how.mirror { KernelName::Fast } else { how.kernel },
             pslg,
             task,
             &mut options,
@@ -209,12 +163,7 @@ fn with_kernel(
     options: &mut Options,
     sink: &mut dyn Sink,
 ) -> Result<Result<Run, RunError>, Failure> {
-    fn go<K: Kernel>(
-        pslg: &Pslg,
-        task: &Task,
-        options: &mut Options,
-        sink: &mut dyn Sink,
-    ) -> Result<Run, RunError> {
+    fn go<K: Kernel>(pslg: &Pslg, task: &Task, options: &mut Options, sink: &mut dyn Sink) -> Result<Run, RunError> {
         match task {
             Task::Refine(parameters) => refine::gcdr::run::<K>(pslg, parameters, options, sink),
             Task::Triangulate => refine::triangulate::<K>(pslg, sink),
@@ -225,9 +174,7 @@ fn with_kernel(
         #[cfg(feature = "exact")]
         KernelName::Exact => Ok(go::<ExactKernel>(pslg, task, options, sink)),
         #[cfg(not(feature = "exact"))]
-        KernelName::Exact => Err(Failure::new(
-            "this program was built without the exact kernel (feature `exact`)",
-        )),
+        KernelName::Exact => Err(Failure::new("this program was built without the exact kernel (feature `exact`)")),
     }
 }
 
@@ -271,11 +218,7 @@ fn mirrored<R: std::io::BufRead>(
     let begun = Instant::now();
     let mut limit = limit.again();
     let mut stop = || limit.ask();
-    let mut options = Options {
-        max_steps: how.max_steps,
-        stop: Some(&mut stop),
-        ..Options::default()
-    };
+    let mut options = Options { max_steps: how.max_steps, stop: Some(&mut stop), ..Options::default() };
     let mut comparing = Comparing::new(trace);
     let result = with_kernel(KernelName::Exact, pslg, task, &mut options, &mut comparing)?;
     let divergence = match (comparing.divergence(), result) {
@@ -283,11 +226,7 @@ fn mirrored<R: std::io::BufRead>(
         (None, Err(e)) => Some(format!("the exact kernel ends with: {e}")),
         (None, Ok(_)) => None,
     };
-    Ok(Mirror {
-        records: comparing.records(),
-        seconds: begun.elapsed().as_secs_f64(),
-        divergence,
-    })
+    Ok(Mirror { records: comparing.records(), seconds: begun.elapsed().as_secs_f64(), divergence })
 }
 
 /// A run that ended without an outcome: what the input has to do with it is a finding like any other.
@@ -309,26 +248,15 @@ fn refused(e: RunError, task: &Task, loaded: &mut Loaded, path: &Path, json: boo
 
 /// Repairs one by one, up to a few; of notes the number only, since `doctor` lists them.
 fn tell_findings(loaded: &Loaded) {
-    let repairs = loaded
-        .entries
-        .iter()
-        .filter(|e| e.severity == Severity::Repair);
+    let repairs = loaded.entries.iter().filter(|e| e.severity == Severity::Repair);
     repairs.take(5).for_each(|e| talk(&e.text));
     let (repairs, notes) = (loaded.count(Severity::Repair), loaded.count(Severity::Note));
     if repairs > 5 || notes > 0 {
-        talk(format_args!(
-            "input     {repairs} repairs, {notes} notes (`doctor` lists them)"
-        ));
+        talk(format_args!("input     {repairs} repairs, {notes} notes (`doctor` lists them)"));
     }
 }
 
-fn tell(
-    run: &Run,
-    quality: &Quality,
-    digests: &[Option<String>; 2],
-    seconds: f64,
-    mirror: Option<&Mirror>,
-) {
+fn tell(run: &Run, quality: &Quality, digests: &[Option<String>; 2], seconds: f64, mirror: Option<&Mirror>) {
     report::lines(run, quality).iter().for_each(talk);
     for (name, digest) in ["mesh", "trace"].iter().zip(digests) {
         if let Some(digest) = digest {
@@ -337,16 +265,9 @@ fn tell(
     }
     talk(format_args!("time      {seconds:.3} s"));
     match mirror {
-        Some(Mirror {
-            divergence: Some(d),
-            ..
-        }) => talk(format_args!("mirror    DIVERGED: {d}")),
-        Some(Mirror {
-            records, seconds, ..
-        }) => {
-            talk(format_args!(
-                "mirror    identical: {records} records, exact kernel {seconds:.3} s"
-            ));
+        Some(Mirror { divergence: Some(d), .. }) => talk(format_args!("mirror    DIVERGED: {d}")),
+        Some(Mirror { records, seconds, .. }) => {
+            talk(format_args!("mirror    identical: {records} records, exact kernel {seconds:.3} s"));
         }
         None => {}
     }

@@ -97,7 +97,5 @@ fn talk(line: impl fmt::Display) {
 /// A line on stdout.
 fn data(line: impl fmt::Display) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    writeln!(out, "{line}")
-        .and_then(|()| out.flush())
-        .map_err(|e| Failure::new(format_args!("stdout: {e}")))
+    writeln!(out, "{line}").and_then(|()| out.flush()).map_err(|e| Failure::new(format_args!("stdout: {e}")))
 }

@@ -10,10 +10,7 @@ use std::path::{Path, PathBuf};
 /// The files of a mesh under one name: more than one where the format needs them. Errors: no mesh is written under such a name.
 fn files(path: &Path) -> Result<&'static [Format], Failure> {
     match Format::of(path).map_or(&[][..], Format::files_of_mesh) {
-        [] => Err(Failure::at(
-            path,
-            "meshes are written to .vtu, .msh, .off, .svg, .node, .ele, .poly, .edge",
-        )),
+        [] => Err(Failure::at(path, "meshes are written to .vtu, .msh, .off, .svg, .node, .ele, .poly, .edge")),
         files => Ok(files),
     }
 }
@@ -25,24 +22,13 @@ pub fn check_names(paths: &[PathBuf]) -> Result<(), Failure> {
 
 /// Refuses to write over the file that is read, or over the vertices that go with it.
 pub fn spare_input(paths: &[PathBuf], input: &Path) -> Result<(), Failure> {
-    let borrows = Format::of(input) == Some(Format::Poly)
-        && fs::read(input).is_ok_and(|bytes| poly_wants_node(&bytes));
-    let own = [
-        Some(input.to_path_buf()),
-        borrows.then(|| input.with_extension("node")),
-    ];
+    let borrows = Format::of(input) == Some(Format::Poly) && fs::read(input).is_ok_and(|bytes| poly_wants_node(&bytes));
+    let own = [Some(input.to_path_buf()), borrows.then(|| input.with_extension("node"))];
     // Files that do not exist are not in danger.
-    let own: Vec<PathBuf> = own
-        .into_iter()
-        .flatten()
-        .filter_map(|path| path.canonicalize().ok())
-        .collect();
+    let own: Vec<PathBuf> = own.into_iter().flatten().filter_map(|path| path.canonicalize().ok()).collect();
     for (place, _) in places(paths)? {
         if place.canonicalize().is_ok_and(|place| own.contains(&place)) {
-            return Err(Failure::at(
-                &place,
-                "would be written over, and belongs to the input; give another name",
-            ));
+            return Err(Failure::at(&place, "would be written over, and belongs to the input; give another name"));
         }
     }
     Ok(())
@@ -54,14 +40,7 @@ fn places(paths: &[PathBuf]) -> Result<Vec<(PathBuf, Format)>, Failure> {
     for path in paths {
         for &format in files(path)? {
             let own = Format::of(path) == Some(format);
-            places.push((
-                if own {
-                    path.clone()
-                } else {
-                    path.with_extension(format.extension())
-                },
-                format,
-            ));
+            places.push((if own { path.clone() } else { path.with_extension(format.extension()) }, format));
         }
     }
     places.sort();
@@ -78,8 +57,7 @@ pub fn stage(
 ) -> Result<Vec<PathBuf>, Failure> {
     let places = places(paths)?;
     for (place, format) in &places {
-        let bytes = write_mesh(mesh, *format, domain)
-            .ok_or_else(|| Failure::at(place, "no format of meshes"))?;
+        let bytes = write_mesh(mesh, *format, domain).ok_or_else(|| Failure::at(place, "no format of meshes"))?;
         staged.write(place, &bytes)?;
     }
     Ok(places.into_iter().map(|(place, _)| place).collect())

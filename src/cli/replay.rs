@@ -12,10 +12,7 @@ use crate::trace::{Event, Reader, Record};
 /// deletion only makes room for a split, a replay to a deletion goes on to its split. Exit code 1 if an event is not justified.
 pub fn run(args: &ReplayArgs) -> Answer {
     check_names(&args.output)?;
-    let mut checker = Checker::new(Options {
-        strict: false,
-        digests: false,
-    });
+    let mut checker = Checker::new(Options { strict: false, digests: false });
     let mut domain = Pslg::default();
     let mut reached = false;
     let mut last = None;
@@ -39,30 +36,21 @@ pub fn run(args: &ReplayArgs) -> Answer {
     }
     if !reached {
         let end = last.map_or("no event".to_string(), |n| format!("events 0 to {n}"));
-        return Err(Failure::new(format_args!(
-            "--to {}: the trace has {end}",
-            args.to
-        )));
+        return Err(Failure::new(format_args!("--to {}: the trace has {end}", args.to)));
     }
     let mesh = dressed(checker.mesh(), &domain);
     let mut staged = Staged::default();
     stage(&args.output, &mesh, Some(&domain), &mut staged)?;
     staged.commit()?;
     let event = last.unwrap_or(args.to);
-    talk(format_args!(
-        "event {event}: {} vertices, {} triangles",
-        mesh.points.len(),
-        mesh.triangles.len()
-    ));
+    talk(format_args!("event {event}: {} vertices, {} triangles", mesh.points.len(), mesh.triangles.len()));
     Ok(Status::Well)
 }
 
 /// Keeps what the checker has no use for: markers, attributes, seeds.
 fn note(record: &Record, domain: &mut Pslg) {
     match record {
-        Record::Vertex {
-            marker, attributes, ..
-        } => {
+        Record::Vertex { marker, attributes, .. } => {
             domain.point_markers.push(marker.unwrap_or(0));
             domain.attributes.extend(attributes);
             domain.attributes_per_point = attributes.len();
@@ -75,15 +63,10 @@ fn note(record: &Record, domain: &mut Pslg) {
 
 /// Gives input vertices their markers and attributes back; input vertices come first, and none is ever deleted.
 fn dressed(mut mesh: Mesh2, domain: &Pslg) -> Mesh2 {
-    let inputs = mesh
-        .kinds
-        .iter()
-        .take_while(|k| **k == VertexKind::Input)
-        .count();
+    let inputs = mesh.kinds.iter().take_while(|k| **k == VertexKind::Input).count();
     mesh.point_markers[..inputs].copy_from_slice(&domain.point_markers[..inputs]);
     mesh.attributes_per_point = domain.attributes_per_point;
     mesh.attributes.clone_from(&domain.attributes);
-    mesh.attributes
-        .resize(mesh.points.len() * mesh.attributes_per_point, 0.0);
+    mesh.attributes.resize(mesh.points.len() * mesh.attributes_per_point, 0.0);
     mesh
 }

@@ -20,35 +20,20 @@ impl Quality {
     /// The angles of a mesh, `unmet` being the triangles left bad.
     pub fn of(mesh: &Mesh2, unmet: &[Unmet]) -> Self {
         let is_excused = |u: &&Unmet| matches!(u.reason, SkipReason::InputAngle { .. });
-        let mut excused: Vec<_> = unmet
-            .iter()
-            .filter(is_excused)
-            .map(|u| u.triangle)
-            .collect();
+        let mut excused: Vec<_> = unmet.iter().filter(is_excused).map(|u| u.triangle).collect();
         excused.sort_unstable();
-        let mut quality = Quality {
-            extremes: [180.0, 0.0],
-            unexcused: 60.0,
-            histogram: [0; 12],
-        };
+        let mut quality = Quality { extremes: [180.0, 0.0], unexcused: 60.0, histogram: [0; 12] };
         for t in &mesh.triangles {
             let angles = angles(mesh.corners(*t));
             let least = angles[0].min(angles[1]).min(angles[2]);
             let most = angles[0].max(angles[1]).max(angles[2]);
-            quality.extremes = [
-                quality.extremes[0].min(least),
-                quality.extremes[1].max(most),
-            ];
+            quality.extremes = [quality.extremes[0].min(least), quality.extremes[1].max(most)];
             quality.histogram[((least / 5.0) as usize).min(11)] += 1;
             if excused.binary_search(t).is_err() {
                 quality.unexcused = quality.unexcused.min(least);
             }
         }
-        if mesh.triangles.is_empty() {
-            Quality::default()
-        } else {
-            quality
-        }
+        if mesh.triangles.is_empty() { Quality::default() } else { quality }
     }
 
     /// For programs.
@@ -66,8 +51,7 @@ impl Quality {
         rows.map(|(i, n)| {
             // At least a dot, so that a single bad triangle is seen.
             let eighths = (n * 240).div_ceil(most) as usize;
-            let bar =
-                "█".repeat(eighths / 8) + ["", "▏", "▎", "▍", "▌", "▋", "▊", "▉"][eighths % 8];
+            let bar = "█".repeat(eighths / 8) + ["", "▏", "▎", "▍", "▌", "▋", "▊", "▉"][eighths % 8];
             format!("  {:>2}-{:<2} {n:>9} {bar}", 5 * i, 5 * i + 5)
         })
         .collect()
@@ -76,16 +60,9 @@ impl Quality {
 
 fn angles([a, b, c]: [Point2; 3]) -> [f64; 3] {
     // Halving keeps differences of huge coordinates finite, the common factor keeps products in range.
-    let size = [a, b, c]
-        .iter()
-        .fold(0.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()))
-        .max(f64::MIN_POSITIVE);
+    let size = [a, b, c].iter().fold(0.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs())).max(f64::MIN_POSITIVE);
     let [a, b, c] = [a, b, c].map(|p| p * 0.5 / size);
-    let longest = (b - a)
-        .abs()
-        .max_element()
-        .max((c - a).abs().max_element())
-        .max(f64::MIN_POSITIVE);
+    let longest = (b - a).abs().max_element().max((c - a).abs().max_element()).max(f64::MIN_POSITIVE);
     let at = |p: Point2, q: Point2, r: Point2| {
         let (u, v) = ((q - p) / longest, (r - p) / longest);
         u.perp_dot(v).abs().atan2(u.dot(v)).to_degrees()
@@ -128,9 +105,7 @@ pub fn why_outside(p: &GcdrParameters) -> &'static str {
 
 /// Whether every triangle left bad is excused by an angle of the input.
 pub fn all_excused(unmet: &[Unmet]) -> bool {
-    unmet
-        .iter()
-        .all(|u| matches!(u.reason, SkipReason::InputAngle { .. }))
+    unmet.iter().all(|u| matches!(u.reason, SkipReason::InputAngle { .. }))
 }
 
 /// The reason for which a triangle was left, and the element it names.
@@ -184,21 +159,11 @@ pub fn unmet_lines(unmet: &[Unmet]) -> Vec<String> {
             "resolution" => "coordinates have no room for a better point",
             _ => "their segment was split as often as allowed",
         };
-        lines.push(format!(
-            "unmet     {} {name} ({explained})",
-            of_reason.len()
-        ));
+        lines.push(format!("unmet     {} {name} ({explained})", of_reason.len()));
         for u in of_reason.iter().take(3) {
             let p = place(u);
-            let element = reason(u)
-                .1
-                .map_or(String::new(), |(kind, id)| format!(", {kind} {id}"));
-            lines.push(format!(
-                "            {} at ({:.6}, {:.6}){element}",
-                cause(u),
-                p.x,
-                p.y
-            ));
+            let element = reason(u).1.map_or(String::new(), |(kind, id)| format!(", {kind} {id}"));
+            lines.push(format!("            {} at ({:.6}, {:.6}){element}", cause(u), p.x, p.y));
         }
         if of_reason.len() > 3 {
             lines.push(format!("            and {} more", of_reason.len() - 3));
@@ -210,18 +175,10 @@ pub fn unmet_lines(unmet: &[Unmet]) -> Vec<String> {
 /// What a run came to, for people.
 pub fn lines(run: &Run, quality: &Quality) -> Vec<String> {
     let c = &run.counts;
-    let reason = run
-        .stop_reason
-        .as_ref()
-        .map_or(String::new(), |r| format!(": {r}"));
+    let reason = run.stop_reason.as_ref().map_or(String::new(), |r| format!(": {r}"));
     let mut lines = vec![
         format!("outcome   {}{reason}", outcome(run.outcome)),
-        format!(
-            "mesh      {} vertices, {} triangles, {} subsegments",
-            c.vertices,
-            c.triangles,
-            run.mesh.edges.len()
-        ),
+        format!("mesh      {} vertices, {} triangles, {} subsegments", c.vertices, c.triangles, run.mesh.edges.len()),
     ];
     if c.type_a + c.type_b + c.type_c > 0 {
         lines.push(format!(
@@ -233,15 +190,9 @@ pub fn lines(run: &Run, quality: &Quality) -> Vec<String> {
             c.removed
         ));
     }
-    lines.push(format!(
-        "angles    {:.2} to {:.2} degrees",
-        quality.extremes[0], quality.extremes[1]
-    ));
+    lines.push(format!("angles    {:.2} to {:.2} degrees", quality.extremes[0], quality.extremes[1]));
     if quality.unexcused > quality.extremes[0] {
-        lines.push(format!(
-            "          {:.2} where no input angle is in the way",
-            quality.unexcused
-        ));
+        lines.push(format!("          {:.2} where no input angle is in the way", quality.unexcused));
     }
     lines.extend(quality.bars());
     lines.extend(unmet_lines(&run.unmet));

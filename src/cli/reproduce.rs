@@ -11,17 +11,13 @@ pub fn run(args: &ReproduceArgs) -> Answer {
     match args.name.as_str() {
         "gcdr-table-7.1" => table(args),
         "gcdr-figure-7.1" => figure(args),
-        other => Err(Failure::new(format_args!(
-            "{other}: known are gcdr-table-7.1 and gcdr-figure-7.1"
-        ))),
+        other => Err(Failure::new(format_args!("{other}: known are gcdr-table-7.1 and gcdr-figure-7.1"))),
     }
 }
 
 fn table(args: &ReproduceArgs) -> Answer {
     if args.output.is_some() {
-        return Err(Failure::new(
-            "a table is printed, not drawn: --output is for the figure",
-        ));
+        return Err(Failure::new("a table is printed, not drawn: --output is for the figure"));
     }
     let mut progress = |rows: usize| {
         if stderr().is_terminal() {
@@ -34,11 +30,7 @@ fn table(args: &ReproduceArgs) -> Answer {
     } else {
         data(&table)?
     }
-    Ok(if table.holds() {
-        Status::Well
-    } else {
-        Status::No
-    })
+    Ok(if table.holds() { Status::Well } else { Status::No })
 }
 
 fn figure(args: &ReproduceArgs) -> Answer {
@@ -56,9 +48,5 @@ fn figure(args: &ReproduceArgs) -> Answer {
     } else {
         data(&figure)?
     }
-    Ok(if figure.meshes.iter().all(|m| m.complete) {
-        Status::Well
-    } else {
-        Status::No
-    })
+    Ok(if figure.meshes.iter().all(|m| m.complete) { Status::Well } else { Status::No })
 }

@@ -35,10 +35,7 @@ pub fn run(args: &VerifyArgs) -> Answer {
     };
     let mut reader = Reader::new(open(&args.trace)?);
     let mut judge = Judge {
-        checker: Checker::new(Options {
-            strict: args.strict,
-            digests: !args.no_digest,
-        }),
+        checker: Checker::new(Options { strict: args.strict, digests: !args.no_digest }),
         spacing: args.spacing.then(Spacing::new),
         input,
         stated: Pslg::default(),
@@ -47,14 +44,12 @@ pub fn run(args: &VerifyArgs) -> Answer {
     while let Some(record) = reader.next() {
         let judged = match record {
             Ok(record) => judge.record(&record).and_then(|()| match &record {
-                Record::End(end) if !args.no_digest && end.trace != reader.digest() => {
-                    Err(Rejection {
-                        event: "end".into(),
-                        rule: "Digest".into(),
-                        expected: reader.digest(),
-                        found: end.trace.clone(),
-                    })
-                }
+                Record::End(end) if !args.no_digest && end.trace != reader.digest() => Err(Rejection {
+                    event: "end".into(),
+                    rule: "Digest".into(),
+                    expected: reader.digest(),
+                    found: end.trace.clone(),
+                }),
                 _ => Ok(()),
             }),
             Err(DecodeError::Io(e)) => return Err(Failure::at(&args.trace, e)),
@@ -101,11 +96,7 @@ impl Judge {
     fn compare(&mut self, record: &Record) -> Result<(), Rejection> {
         match record {
             Record::Header(Header { fill, .. }) => self.stated.fill = *fill,
-            Record::Vertex {
-                at,
-                marker,
-                attributes,
-            } => {
+            Record::Vertex { at, marker, attributes } => {
                 self.stated.points.push(*at);
                 self.stated.point_markers.extend(marker);
                 self.stated.attributes.extend(attributes);
@@ -144,44 +135,24 @@ impl Judge {
                 let (event, rule) = (r.event.to_string(), r.rule.to_string());
                 return reject(
                     args,
-                    &Rejection {
-                        event,
-                        rule,
-                        expected: r.expected,
-                        found: r.found,
-                    },
+                    &Rejection { event, rule, expected: r.expected, found: r.found },
                     begun.elapsed().as_secs_f64(),
                 );
             }
         };
         let seconds = begun.elapsed().as_secs_f64();
         if args.json {
-            let unchecked: Vec<_> = unchecked
-                .iter()
-                .map(|u| json!({"rule": u.rule.to_string(), "reason": u.reason}))
-                .collect();
-            let mut value = json!({"verdict": "accepted", "events": events, "unchecked": unchecked, "seconds": seconds});
+            let unchecked: Vec<_> =
+                unchecked.iter().map(|u| json!({"rule": u.rule.to_string(), "reason": u.reason})).collect();
+            let mut value =
+                json!({"verdict": "accepted", "events": events, "unchecked": unchecked, "seconds": seconds});
             if let Some(report) = spacing {
                 let row = |(row, c): (&Row, &Count)| {
-                    (
-                        row.to_string(),
-                        json!({"held": c.held, "undecided": c.undecided, "unclaimed": c.unclaimed}),
-                    )
+                    (row.to_string(), json!({"held": c.held, "undecided": c.undecided, "unclaimed": c.unclaimed}))
                 };
-                let density =
-                    |(kind, d): (&Kind, &f64)| (format!("{kind:?}").to_lowercase(), json!(d));
-                value["rows"] = report
-                    .rows
-                    .iter()
-                    .map(row)
-                    .collect::<serde_json::Map<_, _>>()
-                    .into();
-                value["densities"] = report
-                    .densities
-                    .iter()
-                    .map(density)
-                    .collect::<serde_json::Map<_, _>>()
-                    .into();
+                let density = |(kind, d): (&Kind, &f64)| (format!("{kind:?}").to_lowercase(), json!(d));
+                value["rows"] = report.rows.iter().map(row).collect::<serde_json::Map<_, _>>().into();
+                value["densities"] = report.densities.iter().map(density).collect::<serde_json::Map<_, _>>().into();
             }
             data(value)?;
         } else {
@@ -198,11 +169,7 @@ impl Judge {
             talk(format_args!("time      {seconds:.3} s"));
         }
         let open = !unchecked.is_empty() || undecided > 0;
-        Ok(if args.strict && open {
-            Status::No
-        } else {
-            Status::Well
-        })
+        Ok(if args.strict && open { Status::No } else { Status::Well })
     }
 }
 
@@ -210,9 +177,7 @@ impl Judge {
 /// itself is an option of `mesh`, not of the input.
 fn difference(input: &Pslg, stated: &Pslg) -> Option<&'static str> {
     let bits = |list: &[crate::model::Point2]| -> Vec<[u64; 2]> {
-        list.iter()
-            .map(|p| p.to_array().map(f64::to_bits))
-            .collect()
+        list.iter().map(|p| p.to_array().map(f64::to_bits)).collect()
     };
     let convex = stated.fill == Fill::Convex;
     let own: &[Segment] = match stated.segments.get(..input.segments.len()) {
@@ -221,8 +186,8 @@ fn difference(input: &Pslg, stated: &Pslg) -> Option<&'static str> {
     };
     // A parity input meshed whole keeps its segments, not what they toggle.
     let plain = |s: &Segment| (s.ends, s.marker, s.toggles && !convex);
-    let equal_segments = own.len() == input.segments.len()
-        && own.iter().map(plain).eq(input.segments.iter().map(plain));
+    let equal_segments =
+        own.len() == input.segments.len() && own.iter().map(plain).eq(input.segments.iter().map(plain));
     let checks = [
         ("vertices", bits(&input.points) == bits(&stated.points)),
         ("markers", input.point_markers == stated.point_markers),
@@ -232,10 +197,7 @@ fn difference(input: &Pslg, stated: &Pslg) -> Option<&'static str> {
         ("regions", input.regions == stated.regions),
         ("fill", convex || input.fill == stated.fill),
     ];
-    checks
-        .into_iter()
-        .find(|(_, equal)| !equal)
-        .map(|(what, _)| what)
+    checks.into_iter().find(|(_, equal)| !equal).map(|(what, _)| what)
 }
 
 fn undecodable(events: u64, e: &DecodeError) -> Rejection {
@@ -253,30 +215,19 @@ fn undecodable(events: u64, e: &DecodeError) -> Rejection {
 
 fn violation(v: Violation) -> Rejection {
     let event = v.event.map_or("end".into(), |i| format!("event {i}"));
-    Rejection {
-        event,
-        rule: v.row.to_string(),
-        expected: v.expected,
-        found: v.found,
-    }
+    Rejection { event, rule: v.row.to_string(), expected: v.expected, found: v.found }
 }
 
 fn reject(args: &VerifyArgs, r: &Rejection, seconds: f64) -> Answer {
     if args.json {
-        let number = r
-            .event
-            .strip_prefix("event ")
-            .and_then(|n| n.parse::<u64>().ok());
+        let number = r.event.strip_prefix("event ").and_then(|n| n.parse::<u64>().ok());
         let event = number.map_or(json!(r.event), |n| json!(n));
         data(json!({
             "verdict": "rejected", "event": event, "rule": r.rule, "expected": r.expected, "found": r.found,
             "events": number, "unchecked": [], "seconds": seconds,
         }))?;
     } else {
-        data(format_args!(
-            "rejected: {}: rule {}: expected {}, found {}",
-            r.event, r.rule, r.expected, r.found
-        ))?;
+        data(format_args!("rejected: {}: rule {}: expected {}, found {}", r.event, r.rule, r.expected, r.found))?;
     }
     Ok(Status::No)
 }

@@ -38,24 +38,13 @@ impl Limit {
     pub fn new(seconds: Option<f64>) -> Self {
         let span = seconds.and_then(|s| Duration::try_from_secs_f64(s.max(0.0)).ok());
         let deadline = span.and_then(|span| Instant::now().checked_add(span));
-        Limit {
-            when: When::Clock(deadline, seconds.unwrap_or(0.0)),
-            asked: 0,
-            given: None,
-        }
+        Limit { when: When::Clock(deadline, seconds.unwrap_or(0.0)), asked: 0, given: None }
     }
 
     /// A limit that stops where this one did, for its reason, and nowhere else.
     pub fn again(&self) -> Self {
-        let when = self
-            .given
-            .clone()
-            .map_or(When::Never, |reason| When::Script(self.asked, reason));
-        Limit {
-            when,
-            asked: 0,
-            given: None,
-        }
+        let when = self.given.clone().map_or(When::Never, |reason| When::Script(self.asked, reason));
+        Limit { when, asked: 0, given: None }
     }
 
     /// Answers a run.
@@ -85,12 +74,7 @@ pub struct Watched<'a> {
 impl<'a> Watched<'a> {
     /// Watches what goes into `inner`.
     pub fn new(inner: &'a mut dyn Sink) -> Self {
-        Watched {
-            inner,
-            progress: io::stderr().is_terminal(),
-            events: 0,
-            shown: Instant::now(),
-        }
+        Watched { inner, progress: io::stderr().is_terminal(), events: 0, shown: Instant::now() }
     }
 
     fn show(&mut self) {

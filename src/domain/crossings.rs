@@ -22,12 +22,7 @@ pub(super) struct Crossings {
 }
 
 /// Decides about each suspect. `order`: the vertices in lexicographic order.
-pub(super) fn crossings<K: Kernel>(
-    points: &[Point2],
-    order: &[u32],
-    spans: &[Span],
-    suspects: &[u32],
-) -> Crossings {
+pub(super) fn crossings<K: Kernel>(points: &[Point2], order: &[u32], spans: &[Span], suspects: &[u32]) -> Crossings {
     let mut found = Crossings::default();
     if suspects.is_empty() {
         return found;
@@ -51,13 +46,8 @@ pub(super) fn crossings<K: Kernel>(
         });
         // Positions in the lexicographic order ascend along the segment.
         inside.sort_unstable();
-        let cuts: Vec<Point2> = inside
-            .iter()
-            .map(|&i| points[order[i as usize] as usize])
-            .collect();
-        found
-            .incidences
-            .extend(inside.iter().map(|&i| (s, order[i as usize])));
+        let cuts: Vec<Point2> = inside.iter().map(|&i| points[order[i as usize] as usize]).collect();
+        found.incidences.extend(inside.iter().map(|&i| (s, order[i as usize])));
         segments.visit::<K>([a, b], &mut visits, |t| {
             if asked[t as usize] {
                 return; // counted when it was asked for
@@ -84,9 +74,7 @@ pub(super) fn crossings<K: Kernel>(
 fn meets_vertex<K: Kernel>(along: &[Point2], a: Point2, [c, d]: [Point2; 2]) -> bool {
     let near = K::orient2d(c, d, a);
     let beyond = along.partition_point(|&p| K::orient2d(c, d, p) == near);
-    along
-        .get(beyond)
-        .is_some_and(|&p| K::orient2d(c, d, p) == Sign::Zero)
+    along.get(beyond).is_some_and(|&p| K::orient2d(c, d, p) == Sign::Zero)
 }
 
 /// A balanced tree of bounding boxes over items with a box each.
@@ -118,10 +106,7 @@ impl Boxes {
                 [a.min(b), a.max(b)]
             })
             .collect();
-        let mut tree = Boxes {
-            nodes: Vec::new(),
-            items: (0..count as u32).collect(),
-        };
+        let mut tree = Boxes { nodes: Vec::new(), items: (0..count as u32).collect() };
         let mut items = std::mem::take(&mut tree.items);
         if count > 0 {
             tree.build(&boxes, &mut items, 0);
@@ -138,11 +123,7 @@ impl Boxes {
             high = high.max(boxes[i as usize][1]);
         }
         let node = self.nodes.len();
-        self.nodes.push(Node {
-            low,
-            high,
-            content: Content::Items(offset, items.len() as u32),
-        });
+        self.nodes.push(Node { low, high, content: Content::Items(offset, items.len() as u32) });
         if items.len() <= LEAF {
             return;
         }
@@ -176,9 +157,7 @@ impl Boxes {
             }
             match node.content {
                 Content::Items(from, count) => {
-                    self.items[from as usize..(from + count) as usize]
-                        .iter()
-                        .for_each(|&item| f(item));
+                    self.items[from as usize..(from + count) as usize].iter().for_each(|&item| f(item));
                 }
                 Content::Second(second) => stack.extend([second, i + 1]),
             }
@@ -191,7 +170,5 @@ fn beside<K: Kernel>(a: Point2, b: Point2, node: &Node) -> bool {
     let Node { low, high, .. } = *node;
     let first = K::orient2d(a, b, low);
     first != Sign::Zero
-        && [high, Point2::new(low.x, high.y), Point2::new(high.x, low.y)]
-            .iter()
-            .all(|&c| K::orient2d(a, b, c) == first)
+        && [high, Point2::new(low.x, high.y), Point2::new(high.x, low.y)].iter().all(|&c| K::orient2d(a, b, c) == first)
 }

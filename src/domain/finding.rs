@@ -68,8 +68,8 @@ impl Kind {
     pub fn severity(self) -> Severity {
         use Kind::*;
         match self {
-            NotFinite | OutOfRange | BadIndex | CoincidentVertices | Crossing | NoClosedRegion
-            | SeedOnSegment | SeedOutside | SeedsInOneFace => Severity::Error,
+            NotFinite | OutOfRange | BadIndex | CoincidentVertices | Crossing | NoClosedRegion | SeedOnSegment
+            | SeedOutside | SeedsInOneFace => Severity::Error,
             VertexOnSegment | Overlap | DoubledSegment | ZeroLength => Severity::Repair,
             SmallAngle | DanglingSegment | IsolatedVertex | Outside | NothingLeft => Severity::Note,
         }
@@ -80,39 +80,25 @@ impl Kind {
         use Kind::*;
         match self {
             NotFinite => "give a finite decimal number",
-            OutOfRange => {
-                "scale or shift the input; write 0 for a coordinate that is meant to be 0"
-            }
+            OutOfRange => "scale or shift the input; write 0 for a coordinate that is meant to be 0",
             BadIndex => {
                 "correct the index; in .poly files the first vertex is numbered 0 or 1 and that numbering holds throughout"
             }
             CoincidentVertices => "keep one of the vertices and let the segments refer to it",
             Crossing => "put a vertex at the crossing and split both segments there",
-            NoClosedRegion => {
-                "close the boundary with segments, or mesh the convex hull (--convex)"
-            }
+            NoClosedRegion => "close the boundary with segments, or mesh the convex hull (--convex)",
             SeedOnSegment => "move the seed off the segment, into the face it stands for",
             SeedOutside => "move the seed into the face it stands for, or remove it",
             SeedsInOneFace => "remove one of the seeds, or close the boundary between them",
             VertexOnSegment => "none needed: the segment is taken as its parts, in order",
-            Overlap => {
-                "none needed: the common piece is kept once, with the first segment's marker"
-            }
+            Overlap => "none needed: the common piece is kept once, with the first segment's marker",
             DoubledSegment => "none needed: the segment is kept once, with the first one's marker",
             ZeroLength => "none needed: the segment is dropped",
             SmallAngle => "none needed: triangles that the angle makes skinny are left and listed",
-            DanglingSegment => {
-                "none needed; if a boundary was meant to close here, connect the end"
-            }
-            IsolatedVertex => {
-                "none needed: it becomes a vertex of the mesh if it lies in the region"
-            }
-            NothingLeft => {
-                "move the hole seeds, close the boundary around them, or mesh the convex hull (--convex)"
-            }
-            Outside => {
-                "none needed: it is left out; if it was meant to be meshed, close the boundary around it"
-            }
+            DanglingSegment => "none needed; if a boundary was meant to close here, connect the end",
+            IsolatedVertex => "none needed: it becomes a vertex of the mesh if it lies in the region",
+            NothingLeft => "move the hole seeds, close the boundary around them, or mesh the convex hull (--convex)",
+            Outside => "none needed: it is left out; if it was meant to be meshed, close the boundary around it",
         }
     }
 }
@@ -172,21 +158,9 @@ pub struct Finding {
 
 impl Finding {
     /// A finding about some elements at some places; the lines are looked up.
-    pub fn new(
-        kind: Kind,
-        elements: Vec<Element>,
-        coordinates: Vec<Point2>,
-        lines: &Lines,
-        message: String,
-    ) -> Self {
+    pub fn new(kind: Kind, elements: Vec<Element>, coordinates: Vec<Point2>, lines: &Lines, message: String) -> Self {
         let lines = elements.iter().filter_map(|e| e.line(lines)).collect();
-        Finding {
-            kind,
-            elements,
-            coordinates,
-            lines,
-            message,
-        }
+        Finding { kind, elements, coordinates, lines, message }
     }
 
     /// What follows from it.
@@ -202,48 +176,26 @@ impl Finding {
     /// Segments enclose no face.
     pub fn no_closed_region() -> Self {
         let message = "the segments enclose no region: there is nothing to mesh".into();
-        Finding::new(
-            Kind::NoClosedRegion,
-            Vec::new(),
-            Vec::new(),
-            &Lines::default(),
-            message,
-        )
+        Finding::new(Kind::NoClosedRegion, Vec::new(), Vec::new(), &Lines::default(), message)
     }
 
     /// Holes take every face that segments enclose.
     pub fn nothing_left(pslg: &Pslg, lines: &Lines) -> Self {
         let message = "the holes take all that the segments enclose: the mesh is empty".into();
-        let holes = (0u32..)
-            .zip(&pslg.holes)
-            .map(|(i, _)| Element::Hole(i))
-            .collect();
+        let holes = (0u32..).zip(&pslg.holes).map(|(i, _)| Element::Hole(i)).collect();
         Finding::new(Kind::NothingLeft, holes, pslg.holes.clone(), lines, message)
     }
 
     /// A seed that lies on a segment or vertex.
     pub fn seed_on_segment(seed: Element, pslg: &Pslg, lines: &Lines) -> Self {
-        let message =
-            format!("the seed of {seed} lies on a segment or vertex, so that it names no face");
-        Finding::new(
-            Kind::SeedOnSegment,
-            vec![seed],
-            seed_point(seed, pslg),
-            lines,
-            message,
-        )
+        let message = format!("the seed of {seed} lies on a segment or vertex, so that it names no face");
+        Finding::new(Kind::SeedOnSegment, vec![seed], seed_point(seed, pslg), lines, message)
     }
 
     /// A seed in no face that could be meshed.
     pub fn seed_outside(seed: Element, pslg: &Pslg, lines: &Lines) -> Self {
         let message = format!("the seed of {seed} lies outside of what is meshed");
-        Finding::new(
-            Kind::SeedOutside,
-            vec![seed],
-            seed_point(seed, pslg),
-            lines,
-            message,
-        )
+        Finding::new(Kind::SeedOutside, vec![seed], seed_point(seed, pslg), lines, message)
     }
 
     /// Two region seeds in one face.
@@ -270,14 +222,7 @@ impl Serialize for Finding {
         s.serialize_field("severity", &self.severity())?;
         s.serialize_field("kind", &self.kind)?;
         s.serialize_field("elements", &self.elements)?;
-        s.serialize_field(
-            "coordinates",
-            &self
-                .coordinates
-                .iter()
-                .map(|p| [p.x, p.y])
-                .collect::<Vec<_>>(),
-        )?;
+        s.serialize_field("coordinates", &self.coordinates.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>())?;
         s.serialize_field("line", &self.lines.first())?;
         s.serialize_field("lines", &self.lines)?;
         s.serialize_field("message", &self.message)?;
@@ -332,22 +277,16 @@ impl Findings {
     }
 
     fn entry(&mut self, kind: Kind) -> &mut (Kind, u64, bool) {
-        let i = self
-            .counts
-            .iter()
-            .position(|e| e.0 == kind)
-            .unwrap_or_else(|| {
-                self.counts.push((kind, 0, false));
-                self.counts.len() - 1
-            });
+        let i = self.counts.iter().position(|e| e.0 == kind).unwrap_or_else(|| {
+            self.counts.push((kind, 0, false));
+            self.counts.len() - 1
+        });
         &mut self.counts[i]
     }
 
     /// Whether an error was added.
     pub fn any_error(&self) -> bool {
-        self.counts
-            .iter()
-            .any(|e| e.0.severity() == Severity::Error && e.1 > 0)
+        self.counts.iter().any(|e| e.0.severity() == Severity::Error && e.1 > 0)
     }
 
     /// All findings, errors first, kinds together, within a kind as added; after a full list the number of the others.
@@ -361,10 +300,7 @@ impl Findings {
                     elements: Vec::new(),
                     coordinates: Vec::new(),
                     lines: Vec::new(),
-                    message: format!(
-                        "{more}{} more of this kind, {more}{count} in all",
-                        count - listed
-                    ),
+                    message: format!("{more}{} more of this kind, {more}{count} in all", count - listed),
                 });
             }
         }

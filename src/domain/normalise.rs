@@ -49,10 +49,7 @@ impl Scale {
 
     fn times(self, p: Point2, exponent: i32) -> Point2 {
         // Adding 0 turns -0 into +0.
-        Point2::new(
-            by_power_of_two(p.x, exponent) + 0.0,
-            by_power_of_two(p.y, exponent) + 0.0,
-        )
+        Point2::new(by_power_of_two(p.x, exponent) + 0.0, by_power_of_two(p.y, exponent) + 0.0)
     }
 }
 
@@ -75,41 +72,22 @@ pub fn normalise(points: &[Point2], lines: &Lines) -> Result<(Vec<Point2>, Scale
 }
 
 /// As `normalise`, but goes on: `None` for each vertex that cannot be used, with its finding.
-pub(super) fn normalise_all(
-    points: &[Point2],
-    lines: &Lines,
-    findings: &mut Findings,
-) -> (Vec<Option<Point2>>, Scale) {
+pub(super) fn normalise_all(points: &[Point2], lines: &Lines, findings: &mut Findings) -> (Vec<Option<Point2>>, Scale) {
     let mut largest = 0.0f64;
     for p in points.iter().filter(|p| p.is_finite()) {
         largest = largest.max(p.x.abs()).max(p.y.abs());
     }
-    let exponent = if largest > 0.0 {
-        exponent_of(largest)
-    } else {
-        0
-    };
+    let exponent = if largest > 0.0 { exponent_of(largest) } else { 0 };
     let in_scale = exponent.abs() <= LARGEST_SCALE;
-    let scale = Scale {
-        exponent: if in_scale { exponent } else { 0 },
-    };
-    let least = if largest > 0.0 && in_scale {
-        power_of_two(LEAST_COORDINATE)
-    } else {
-        0.0
-    };
+    let scale = Scale { exponent: if in_scale { exponent } else { 0 } };
+    let least = if largest > 0.0 && in_scale { power_of_two(LEAST_COORDINATE) } else { 0.0 };
     let mut normal = Vec::with_capacity(points.len());
     let mut at_scale = None;
     for (i, &p) in points.iter().enumerate() {
         let v = Element::Vertex(VertexId(i as u32));
         if !p.is_finite() {
-            let message = format!(
-                "{v} has a coordinate that is not finite: ({:e}, {:e})",
-                p.x, p.y
-            );
-            findings.add(Kind::NotFinite, || {
-                Finding::new(Kind::NotFinite, vec![v], vec![p], lines, message)
-            });
+            let message = format!("{v} has a coordinate that is not finite: ({:e}, {:e})", p.x, p.y);
+            findings.add(Kind::NotFinite, || Finding::new(Kind::NotFinite, vec![v], vec![p], lines, message));
             normal.push(None);
             continue;
         }
@@ -179,63 +157,32 @@ mod tests {
             vec![],
         ] {
             let (normal, scale) = normalise(&points, &Lines::default()).expect("in range");
-            let largest = normal
-                .iter()
-                .fold(0.0f64, |m, q| m.max(q.abs().max_element()));
+            let largest = normal.iter().fold(0.0f64, |m, q| m.max(q.abs().max_element()));
             assert!(largest == 0.0 || (0.5..1.0).contains(&largest), "{largest}");
             for (a, b) in points.iter().zip(&normal) {
                 assert_eq!(scale.to_input(*b), *a);
-                assert!(
-                    b.x.to_bits() != (-0.0f64).to_bits() && b.y.to_bits() != (-0.0f64).to_bits()
-                );
+                assert!(b.x.to_bits() != (-0.0f64).to_bits() && b.y.to_bits() != (-0.0f64).to_bits());
             }
         }
     }
 
     #[test]
     fn extremes_are_refused_with_their_place() {
-        let lines = Lines {
-            points: vec![7, 8, 9],
-            ..Lines::default()
-        };
+        let lines = Lines { points: vec![7, 8, 9], ..Lines::default() };
         let table = [
-            (
-                vec![p(0.0, 0.0), p(1e300, 0.0), p(0.0, 1.0)],
-                Kind::OutOfRange,
-                8,
-            ),
-            (
-                vec![p(0.0, 0.0), p(1e-300, 0.0), p(0.0, 1e-301)],
-                Kind::OutOfRange,
-                8,
-            ),
-            (
-                vec![p(0.0, 0.0), p(1.0, 0.0), p(0.0, 1e-60)],
-                Kind::OutOfRange,
-                9,
-            ),
-            (
-                vec![p(f64::NAN, 0.0), p(1.0, 0.0), p(0.0, 1.0)],
-                Kind::NotFinite,
-                7,
-            ),
-            (
-                vec![p(1.0, 0.0), p(1.0, 0.0), p(0.0, f64::INFINITY)],
-                Kind::NotFinite,
-                9,
-            ),
+            (vec![p(0.0, 0.0), p(1e300, 0.0), p(0.0, 1.0)], Kind::OutOfRange, 8),
+            (vec![p(0.0, 0.0), p(1e-300, 0.0), p(0.0, 1e-301)], Kind::OutOfRange, 8),
+            (vec![p(0.0, 0.0), p(1.0, 0.0), p(0.0, 1e-60)], Kind::OutOfRange, 9),
+            (vec![p(f64::NAN, 0.0), p(1.0, 0.0), p(0.0, 1.0)], Kind::NotFinite, 7),
+            (vec![p(1.0, 0.0), p(1.0, 0.0), p(0.0, f64::INFINITY)], Kind::NotFinite, 9),
         ];
         for (points, kind, line) in table {
             let findings = normalise(&points, &lines).expect_err("refused");
             assert_eq!(findings.len(), 1, "{findings:?}");
-            assert_eq!(
-                (findings[0].kind, &findings[0].lines[..]),
-                (kind, &[line][..])
-            );
+            assert_eq!((findings[0].kind, &findings[0].lines[..]), (kind, &[line][..]));
         }
         // The windows' ends, exactly: 2^870 is the first magnitude with e = 871, 2^-142 the least coordinate beside 1/2.
-        let edge =
-            |largest: f64, small: f64| normalise(&[p(largest, small)], &Lines::default()).is_ok();
+        let edge = |largest: f64, small: f64| normalise(&[p(largest, small)], &Lines::default()).is_ok();
         assert!(!edge(power_of_two(870), 0.0) && edge(power_of_two(869), 0.0));
         assert!(edge(power_of_two(-871), 0.0) && !edge(power_of_two(-872), 0.0));
         assert!(edge(0.5, power_of_two(-142)) && !edge(0.5, power_of_two(-142).next_down()));

@@ -29,31 +29,14 @@ pub(super) fn repair(
         let count = rest.iter().take_while(|c| c.0 == i as u32).count();
         let (cuts, later) = rest.split_at(count);
         rest = later;
-        cut(
-            span,
-            pslg.segments[span.id as usize],
-            cuts,
-            rank,
-            &mut parts,
-        );
+        cut(span, pslg.segments[span.id as usize], cuts, rank, &mut parts);
         if count > 0 {
-            findings.add(Kind::VertexOnSegment, || {
-                on_segment(pslg, lines, span.id, cuts)
-            });
+            findings.add(Kind::VertexOnSegment, || on_segment(pslg, lines, span.id, cuts));
         }
     }
-    let kept = merge(&parts, |overlaps| {
-        report_overlaps(pslg, lines, overlaps, rank, findings)
-    });
-    let segments = kept.iter().map(|p| Segment {
-        ends: p.ends.map(VertexId),
-        marker: p.marker,
-        toggles: p.toggles,
-    });
-    Repaired {
-        segments: segments.collect(),
-        origin: kept.iter().map(|p| SegmentId(p.origin)).collect(),
-    }
+    let kept = merge(&parts, |overlaps| report_overlaps(pslg, lines, overlaps, rank, findings));
+    let segments = kept.iter().map(|p| Segment { ends: p.ends.map(VertexId), marker: p.marker, toggles: p.toggles });
+    Repaired { segments: segments.collect(), origin: kept.iter().map(|p| SegmentId(p.origin)).collect() }
 }
 
 /// A part of a segment, directed as the segment.
@@ -76,12 +59,7 @@ fn cut(span: &Span, segment: Segment, cuts: &[(u32, u32)], rank: &[u32], parts: 
     let [low, high] = span.ends;
     // The segment's own direction; its ends may be stand-ins for coincident vertices, which have equal ranks.
     let forward = rank[segment.ends[0].index()] == rank[low as usize];
-    let part = |u, v| Part {
-        ends: [u, v],
-        origin: span.id,
-        marker: segment.marker,
-        toggles: segment.toggles,
-    };
+    let part = |u, v| Part { ends: [u, v], origin: span.id, marker: segment.marker, toggles: segment.toggles };
     if forward {
         let last = cuts.iter().fold(low, |from, &(_, w)| {
             parts.push(part(from, w));
@@ -115,11 +93,7 @@ fn merge(parts: &[Part], report: impl FnOnce(Vec<(u32, u32, [u32; 2])>)) -> Vec<
     }
     report(overlaps);
     let kept = (0..parts.len()).filter(|&i| !dropped[i]);
-    kept.map(|i| Part {
-        toggles: toggles[i],
-        ..parts[i]
-    })
-    .collect()
+    kept.map(|i| Part { toggles: toggles[i], ..parts[i] }).collect()
 }
 
 fn on_segment(pslg: &Pslg, lines: &Lines, segment: u32, cuts: &[(u32, u32)]) -> Finding {
@@ -130,10 +104,7 @@ fn on_segment(pslg: &Pslg, lines: &Lines, segment: u32, cuts: &[(u32, u32)]) -> 
         [v, .., w] => format!("{} vertices, from {v} to {w}, lie", vertices.len()),
         [] => String::new(),
     };
-    let message = format!(
-        "{names} on segment {segment}, which becomes {} parts",
-        vertices.len() + 1
-    );
+    let message = format!("{names} on segment {segment}, which becomes {} parts", vertices.len() + 1);
     let mut elements = vec![Element::Segment(SegmentId(segment))];
     elements.extend(vertices.iter().map(|&v| Element::Vertex(VertexId(v))));
     let at = vertices.iter().map(|&v| pslg.points[v as usize]).collect();
@@ -156,11 +127,7 @@ fn report_overlaps(
             ends.sort_unstable();
             ends
         };
-        let kind = if ends(first) == ends(other) {
-            Kind::DoubledSegment
-        } else {
-            Kind::Overlap
-        };
+        let kind = if ends(first) == ends(other) { Kind::DoubledSegment } else { Kind::Overlap };
         findings.add(kind, || {
             let mut along: Vec<u32> = shared.iter().flat_map(|o| o.2).collect();
             along.sort_unstable_by_key(|&v| rank[v as usize]);
@@ -172,9 +139,7 @@ fn report_overlaps(
                 }
                 _ => format!("segments {first} and {other} overlap between vertices {u} and {v}"),
             };
-            let elements = [first, other]
-                .map(|s| Element::Segment(SegmentId(s)))
-                .to_vec();
+            let elements = [first, other].map(|s| Element::Segment(SegmentId(s))).to_vec();
             let at = [u, v].map(|v| pslg.points[v as usize]).to_vec();
             Finding::new(kind, elements, at, lines, message)
         });

@@ -51,12 +51,7 @@ impl<K> Copy for Entry<K> {}
 
 impl<K: Kernel> Entry<K> {
     fn new(a: Point2, b: Point2, span: Option<u32>) -> Self {
-        Entry {
-            a,
-            b,
-            span,
-            kernel: PhantomData,
-        }
+        Entry { a, b, span, kernel: PhantomData }
     }
 
     /// Order of this segment against a point between its ends, along the sweep line.
@@ -79,8 +74,7 @@ pub(super) fn crosses<K: Kernel>(s: [Point2; 2], t: [Point2; 2]) -> bool {
     let opposite = |p: Sign, q: Sign| p != Sign::Zero && p == q.reversed();
     let [a, b] = s;
     let [c, d] = t;
-    opposite(K::orient2d(a, b, c), K::orient2d(a, b, d))
-        && opposite(K::orient2d(c, d, a), K::orient2d(c, d, b))
+    opposite(K::orient2d(a, b, c), K::orient2d(a, b, d)) && opposite(K::orient2d(c, d, a), K::orient2d(c, d, b))
 }
 
 impl<K: Kernel> Ord for Entry<K> {
@@ -92,10 +86,7 @@ impl<K: Kernel> Ord for Entry<K> {
             (Some(s), Some(t)) => match lexicographic(self.a, other.a) {
                 Ordering::Equal => self.against(other.b),
                 Ordering::Less => self.against(other.a).then_with(|| self.against(other.b)),
-                Ordering::Greater => other
-                    .against(self.a)
-                    .then_with(|| other.against(self.b))
-                    .reverse(),
+                Ordering::Greater => other.against(self.a).then_with(|| other.against(self.b)).reverse(),
             }
             .then(s.cmp(&t)),
         }
@@ -145,13 +136,8 @@ impl<K: Kernel> Sweep<'_, K> {
             let starting = &starts.1[starts.0[w] as usize..starts.0[w + 1] as usize];
             self.visit(w as u32, starting, &mut bundle);
         }
-        let suspects = (0..self.spans.len() as u32)
-            .filter(|&s| self.suspect[s as usize])
-            .collect();
-        Contacts {
-            incidences: self.incidences,
-            suspects,
-        }
+        let suspects = (0..self.spans.len() as u32).filter(|&s| self.suspect[s as usize]).collect();
+        Contacts { incidences: self.incidences, suspects }
     }
 
     fn visit(&mut self, w: u32, starting: &[u32], bundle: &mut Vec<Entry<K>>) {
@@ -202,11 +188,7 @@ impl<K: Kernel> Sweep<'_, K> {
                 continue;
             }
             let length2 = |e: &Entry<K>| e.a.distance_squared(e.b);
-            let (leaves, k) = if length2(&s) > length2(&t) {
-                (s, i)
-            } else {
-                (t, j)
-            };
+            let (leaves, k) = if length2(&s) > length2(&t) { (s, i) } else { (t, j) };
             self.suspect[k] = true;
             self.status.remove(&leaves);
             let below = self.status.range(..leaves).next_back().copied();

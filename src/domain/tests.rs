@@ -13,10 +13,7 @@ fn graph(points: &[(i32, i32)], segments: &[(u32, u32)]) -> Pslg {
         toggles: i % 3 != 2,
     };
     Pslg {
-        points: points
-            .iter()
-            .map(|&(x, y)| Point2::new(x.into(), y.into()))
-            .collect(),
+        points: points.iter().map(|&(x, y)| Point2::new(x.into(), y.into())).collect(),
         segments: segments.iter().enumerate().map(segment).collect(),
         ..Pslg::default()
     }
@@ -28,13 +25,7 @@ fn prepared(g: &Pslg) -> Prepared {
 
 /// Kinds with the elements they name.
 fn told(p: &Prepared) -> Vec<(Kind, String)> {
-    let name = |f: &Finding| {
-        f.elements
-            .iter()
-            .map(|e| e.to_string())
-            .collect::<Vec<_>>()
-            .join(" ")
-    };
+    let name = |f: &Finding| f.elements.iter().map(|e| e.to_string()).collect::<Vec<_>>().join(" ");
     p.findings.iter().map(|f| (f.kind, name(f))).collect()
 }
 
@@ -44,40 +35,22 @@ fn table_of_findings() {
     let square = [(0, 0), (4, 0), (4, 4), (0, 4)];
     let ring = [(0, 1), (1, 2), (2, 3), (3, 0)];
     let with = |points: &[(i32, i32)], segments: &[(u32, u32)]| {
-        graph(
-            &[&square[..], points].concat(),
-            &[&ring[..], segments].concat(),
-        )
+        graph(&[&square[..], points].concat(), &[&ring[..], segments].concat())
     };
     let table: Vec<(Pslg, Vec<(Kind, &str)>)> = vec![
         (with(&[], &[]), vec![]),
-        (
-            with(&[], &[(0, 2), (1, 3)]),
-            vec![(Crossing, "segment 4 segment 5")],
-        ),
+        (with(&[], &[(0, 2), (1, 3)]), vec![(Crossing, "segment 4 segment 5")]),
         // A vertex exactly at the crossing makes four parts of two segments.
         (
             with(&[(2, 2)], &[(0, 2), (1, 3)]),
-            vec![
-                (VertexOnSegment, "segment 4 vertex 4"),
-                (VertexOnSegment, "segment 5 vertex 4"),
-            ],
+            vec![(VertexOnSegment, "segment 4 vertex 4"), (VertexOnSegment, "segment 5 vertex 4")],
         ),
-        (
-            with(&[(0, 4)], &[]),
-            vec![(CoincidentVertices, "vertex 3 vertex 4")],
-        ),
-        (
-            with(&[], &[(1, 0)]),
-            vec![(DoubledSegment, "segment 0 segment 4")],
-        ),
+        (with(&[(0, 4)], &[]), vec![(CoincidentVertices, "vertex 3 vertex 4")]),
+        (with(&[], &[(1, 0)]), vec![(DoubledSegment, "segment 0 segment 4")]),
         (with(&[], &[(2, 2)]), vec![(ZeroLength, "segment 4")]),
         (with(&[], &[(2, 9)]), vec![(BadIndex, "segment 4")]),
         (with(&[(2, 1)], &[]), vec![(IsolatedVertex, "vertex 4")]),
-        (
-            with(&[(2, 1)], &[(0, 4)]),
-            vec![(DanglingSegment, "segment 4 vertex 4")],
-        ),
+        (with(&[(2, 1)], &[(0, 4)]), vec![(DanglingSegment, "segment 4 vertex 4")]),
         (
             graph(&[(0, 0), (2, 0), (1, 0), (3, 0)], &[(0, 1), (2, 3)]),
             vec![
@@ -90,35 +63,18 @@ fn table_of_findings() {
         ),
     ];
     for (g, expected) in table {
-        let expected: Vec<_> = expected
-            .into_iter()
-            .map(|(k, s)| (k, s.to_string()))
-            .collect();
+        let expected: Vec<_> = expected.into_iter().map(|(k, s)| (k, s.to_string())).collect();
         assert_eq!(told(&prepared(&g)), expected, "{:?}", g.segments);
     }
 }
 
 #[test]
 fn parts_follow_their_segment() {
-    let g = graph(
-        &[(6, 0), (0, 0), (4, 0), (2, 0), (1, 5)],
-        &[(4, 0), (0, 1), (1, 4)],
-    );
+    let g = graph(&[(6, 0), (0, 0), (4, 0), (2, 0), (1, 5)], &[(4, 0), (0, 1), (1, 4)]);
     let p = prepared(&g);
-    let ends: Vec<_> = p
-        .pslg
-        .segments
-        .iter()
-        .map(|s| (s.ends[0].0, s.ends[1].0, s.marker))
-        .collect();
-    assert_eq!(
-        ends,
-        [(4, 0, 1), (0, 2, 2), (2, 3, 2), (3, 1, 2), (1, 4, 3)]
-    );
-    assert_eq!(
-        p.segment_origin.iter().map(|s| s.0).collect::<Vec<_>>(),
-        [0, 1, 1, 1, 2]
-    );
+    let ends: Vec<_> = p.pslg.segments.iter().map(|s| (s.ends[0].0, s.ends[1].0, s.marker)).collect();
+    assert_eq!(ends, [(4, 0, 1), (0, 2, 2), (2, 3, 2), (3, 1, 2), (1, 4, 3)]);
+    assert_eq!(p.segment_origin.iter().map(|s| s.0).collect::<Vec<_>>(), [0, 1, 1, 1, 2]);
 }
 
 #[test]
@@ -126,18 +82,11 @@ fn numbers_that_cannot_be_computed_with() {
     let mut g = graph(&[(0, 0), (4, 0), (0, 4)], &[(0, 1), (1, 2), (2, 0)]);
     g.points[1].x = f64::NAN;
     g.holes = vec![Point2::new(1e300, 0.0), Point2::new(1.0, f64::INFINITY)];
-    g.regions = vec![Region {
-        seed: Point2::new(1.0, 1.0),
-        attribute: f64::NAN,
-        max_area: Some(-1.0),
-    }];
+    g.regions = vec![Region { seed: Point2::new(1.0, 1.0), attribute: f64::NAN, max_area: Some(-1.0) }];
     g.attributes = vec![0.0, 1.0, f64::NAN];
     g.attributes_per_point = 1;
     use Kind::*;
-    let kinds: Vec<_> = told(&prepared(&g))
-        .into_iter()
-        .filter(|f| f.0.severity() == Severity::Error)
-        .collect();
+    let kinds: Vec<_> = told(&prepared(&g)).into_iter().filter(|f| f.0.severity() == Severity::Error).collect();
     let expected = [
         (NotFinite, "vertex 1"),
         (NotFinite, "vertex 2"),
@@ -155,30 +104,15 @@ fn lists_are_cut_and_the_total_told() {
     let mut points = Vec::new();
     let mut segments = Vec::new();
     for i in 0..1050 {
-        let (a, b) = if i < 1000 {
-            ((-1, 2 * i), (200, 2 * i))
-        } else {
-            ((2 * (i - 1000), -1), (2 * (i - 1000), 3000))
-        };
+        let (a, b) =
+            if i < 1000 { ((-1, 2 * i), (200, 2 * i)) } else { ((2 * (i - 1000), -1), (2 * (i - 1000), 3000)) };
         segments.push((points.len() as u32, points.len() as u32 + 1));
         points.extend([a, b]);
     }
     let p = prepared(&graph(&points, &segments));
-    let crossings: Vec<_> = p
-        .findings
-        .iter()
-        .filter(|f| f.kind == Kind::Crossing)
-        .collect();
+    let crossings: Vec<_> = p.findings.iter().filter(|f| f.kind == Kind::Crossing).collect();
     assert_eq!(crossings.len(), LISTED_PER_KIND + 1);
-    assert!(
-        crossings
-            .last()
-            .expect("not empty")
-            .message
-            .contains("50000 in all"),
-        "{:?}",
-        crossings.last()
-    );
+    assert!(crossings.last().expect("not empty").message.contains("50000 in all"), "{:?}", crossings.last());
 }
 
 type Ends = (u32, u32);
@@ -191,22 +125,10 @@ fn by_definition(points: &[(i32, i32)], g: &Pslg) -> (Vec<Ends>, BTreeMap<Ends, 
     };
     let between = |a: u32, b: u32, w: u32| {
         let [p, q, r] = [a, b, w].map(|v| points[v as usize]);
-        r != p
-            && r != q
-            && (r.0 - p.0) * (r.0 - q.0) <= 0
-            && (r.1 - p.1) * (r.1 - q.1) <= 0
-            && orient(a, b, w) == 0
+        r != p && r != q && (r.0 - p.0) * (r.0 - q.0) <= 0 && (r.1 - p.1) * (r.1 - q.1) <= 0 && orient(a, b, w) == 0
     };
-    let inside = |a, b| {
-        (0..points.len() as u32)
-            .filter(move |&w| between(a, b, w))
-            .collect::<Vec<_>>()
-    };
-    let segments: Vec<Ends> = g
-        .segments
-        .iter()
-        .map(|s| (s.ends[0].0, s.ends[1].0))
-        .collect();
+    let inside = |a, b| (0..points.len() as u32).filter(move |&w| between(a, b, w)).collect::<Vec<_>>();
+    let segments: Vec<Ends> = g.segments.iter().map(|s| (s.ends[0].0, s.ends[1].0)).collect();
     let mut crossings = Vec::new();
     let mut parts: BTreeMap<Ends, (i32, bool)> = BTreeMap::new();
     for (i, &(a, b)) in segments.iter().enumerate() {
@@ -214,8 +136,7 @@ fn by_definition(points: &[(i32, i32)], g: &Pslg) -> (Vec<Ends>, BTreeMap<Ends, 
             continue;
         }
         for (j, &(c, d)) in segments.iter().enumerate().skip(i + 1) {
-            let proper =
-                orient(a, b, c) * orient(a, b, d) < 0 && orient(c, d, a) * orient(c, d, b) < 0;
+            let proper = orient(a, b, c) * orient(a, b, d) < 0 && orient(c, d, a) * orient(c, d, b) < 0;
             if proper && !inside(a, b).iter().any(|w| inside(c, d).contains(w)) {
                 crossings.push((i as u32, j as u32));
             }
@@ -226,10 +147,7 @@ fn by_definition(points: &[(i32, i32)], g: &Pslg) -> (Vec<Ends>, BTreeMap<Ends, 
         for pair in chain.windows(2) {
             let key = (pair[0].min(pair[1]), pair[0].max(pair[1]));
             let s = g.segments[i];
-            parts
-                .entry(key)
-                .and_modify(|p| p.1 ^= s.toggles)
-                .or_insert((s.marker, s.toggles));
+            parts.entry(key).and_modify(|p| p.1 ^= s.toggles).or_insert((s.marker, s.toggles));
         }
     }
     (crossings, parts)
@@ -247,16 +165,8 @@ fn agrees_with_definition(points: &[(i32, i32)], segments: &[Ends]) {
         })
         .collect();
     assert_eq!(told, crossings);
-    let made: Vec<_> = p
-        .pslg
-        .segments
-        .iter()
-        .map(|s| ((s.ends[0].0, s.ends[1].0), (s.marker, s.toggles)))
-        .collect();
-    let map: BTreeMap<Ends, _> = made
-        .iter()
-        .map(|&((u, v), x)| ((u.min(v), u.max(v)), x))
-        .collect();
+    let made: Vec<_> = p.pslg.segments.iter().map(|s| ((s.ends[0].0, s.ends[1].0), (s.marker, s.toggles))).collect();
+    let map: BTreeMap<Ends, _> = made.iter().map(|&((u, v), x)| ((u.min(v), u.max(v)), x)).collect();
     assert_eq!(map.len(), made.len(), "a part twice");
     assert_eq!(map, parts);
 }
@@ -265,11 +175,10 @@ fn agrees_with_definition(points: &[(i32, i32)], segments: &[Ends]) {
 fn grids(side: i32, most: usize) -> impl Strategy<Value = (Vec<(i32, i32)>, Vec<Ends>)> {
     let all: Vec<(i32, i32)> = (0..side * side).map(|i| (i % side, i / side)).collect();
     let least = 2usize.min(all.len());
-    (proptest::sample::subsequence(all.clone(), least..=all.len().min(most)).prop_shuffle())
-        .prop_flat_map(|points| {
-            let n = points.len() as u32;
-            (Just(points), prop::collection::vec((0..n, 0..n), 0..24))
-        })
+    (proptest::sample::subsequence(all.clone(), least..=all.len().min(most)).prop_shuffle()).prop_flat_map(|points| {
+        let n = points.len() as u32;
+        (Just(points), prop::collection::vec((0..n, 0..n), 0..24))
+    })
 }
 
 proptest! {

@@ -22,9 +22,7 @@ pub struct Prepared {
 impl Prepared {
     /// Whether the input is to be refused.
     pub fn has_errors(&self) -> bool {
-        self.findings
-            .iter()
-            .any(|f| f.severity() == super::Severity::Error)
+        self.findings.iter().any(|f| f.severity() == super::Severity::Error)
     }
 }
 
@@ -37,54 +35,18 @@ pub fn prepare<K: Kernel>(pslg: &Pslg, lines: &Lines) -> Prepared {
     numbers(pslg, lines, scale, &mut findings);
     let spans = spans(pslg, lines, &vertices, &mut findings);
     let mut contacts = sweep::<K>(&vertices.points, &vertices.order, &spans);
-    let crossed = crossings::<K>(
-        &vertices.points,
-        &vertices.order,
-        &spans,
-        &contacts.suspects,
-    );
+    let crossed = crossings::<K>(&vertices.points, &vertices.order, &spans, &contacts.suspects);
     contacts.incidences.extend(&crossed.incidences);
-    contacts
-        .incidences
-        .sort_unstable_by_key(|&(s, v)| (s, vertices.rank[v as usize]));
+    contacts.incidences.sort_unstable_by_key(|&(s, v)| (s, vertices.rank[v as usize]));
     contacts.incidences.dedup();
-    report_crossings(
-        pslg,
-        lines,
-        &vertices.points,
-        scale,
-        &spans,
-        &crossed,
-        &mut findings,
-    );
-    let repaired = repair(
-        pslg,
-        lines,
-        &spans,
-        &contacts.incidences,
-        &vertices.rank,
-        &mut findings,
-    );
-    loose_ends(
-        pslg,
-        lines,
-        &repaired.segments,
-        &repaired.origin,
-        &vertices.order,
-        &mut findings,
-    );
-    let mut made = Pslg {
-        segments: repaired.segments,
-        ..pslg.clone()
-    };
+    report_crossings(pslg, lines, &vertices.points, scale, &spans, &crossed, &mut findings);
+    let repaired = repair(pslg, lines, &spans, &contacts.incidences, &vertices.rank, &mut findings);
+    loose_ends(pslg, lines, &repaired.segments, &repaired.origin, &vertices.order, &mut findings);
+    let mut made = Pslg { segments: repaired.segments, ..pslg.clone() };
     for p in &mut made.points {
         *p += Point2::ZERO; // -0 becomes +0
     }
-    Prepared {
-        pslg: made,
-        findings: findings.finish(),
-        segment_origin: repaired.origin,
-    }
+    Prepared { pslg: made, findings: findings.finish(), segment_origin: repaired.origin }
 }
 
 /// The usable vertices.
@@ -99,13 +61,9 @@ struct Vertices {
 
 fn vertices(pslg: &Pslg, lines: &Lines, findings: &mut Findings) -> (Vertices, Scale) {
     let (normal, scale) = normalise_all(&pslg.points, lines, findings);
-    let mut sorted: Vec<u32> = (0..normal.len() as u32)
-        .filter(|&i| normal[i as usize].is_some())
-        .collect();
+    let mut sorted: Vec<u32> = (0..normal.len() as u32).filter(|&i| normal[i as usize].is_some()).collect();
     let points: Vec<Point2> = normal.into_iter().map(Option::unwrap_or_default).collect();
-    sorted.sort_unstable_by(|&i, &j| {
-        lexicographic(points[i as usize], points[j as usize]).then(i.cmp(&j))
-    });
+    sorted.sort_unstable_by(|&i, &j| lexicographic(points[i as usize], points[j as usize]).then(i.cmp(&j)));
     let mut order = Vec::with_capacity(sorted.len());
     let mut rank = vec![u32::MAX; points.len()];
     for equal in sorted.chunk_by(|&i, &j| points[i as usize] == points[j as usize]) {
@@ -117,42 +75,21 @@ fn vertices(pslg: &Pslg, lines: &Lines, findings: &mut Findings) -> (Vertices, S
             findings.add(Kind::CoincidentVertices, || {
                 let at = pslg.points[first as usize];
                 let message = match equal.len() {
-                    2 => format!(
-                        "vertices {first} and {second} coincide at ({}, {})",
-                        at.x, at.y
-                    ),
-                    n => format!(
-                        "{n} vertices, among them {first} and {second}, coincide at ({}, {})",
-                        at.x, at.y
-                    ),
+                    2 => format!("vertices {first} and {second} coincide at ({}, {})", at.x, at.y),
+                    n => format!("{n} vertices, among them {first} and {second}, coincide at ({}, {})", at.x, at.y),
                 };
-                let elements = equal
-                    .iter()
-                    .map(|&v| Element::Vertex(VertexId(v)))
-                    .collect();
+                let elements = equal.iter().map(|&v| Element::Vertex(VertexId(v))).collect();
                 Finding::new(Kind::CoincidentVertices, elements, vec![at], lines, message)
             });
         }
     }
-    (
-        Vertices {
-            points,
-            order,
-            rank,
-        },
-        scale,
-    )
+    (Vertices { points, order, rank }, scale)
 }
 
 /// Attributes, seeds and area bounds that cannot be computed with.
 fn numbers(pslg: &Pslg, lines: &Lines, scale: Scale, findings: &mut Findings) {
     let width = pslg.attributes_per_point.max(1);
-    for (i, x) in pslg
-        .attributes
-        .iter()
-        .enumerate()
-        .filter(|(_, x)| !x.is_finite())
-    {
+    for (i, x) in pslg.attributes.iter().enumerate().filter(|(_, x)| !x.is_finite()) {
         findings.add(Kind::NotFinite, || {
             let v = Element::Vertex(VertexId((i / width) as u32));
             let at = pslg.points.get(i / width).copied().into_iter().collect();
@@ -160,16 +97,8 @@ fn numbers(pslg: &Pslg, lines: &Lines, scale: Scale, findings: &mut Findings) {
             Finding::new(Kind::NotFinite, vec![v], at, lines, message)
         });
     }
-    let holes = pslg
-        .holes
-        .iter()
-        .enumerate()
-        .map(|(i, &p)| (Element::Hole(i as u32), p));
-    let regions = pslg
-        .regions
-        .iter()
-        .enumerate()
-        .map(|(i, r)| (Element::Region(i as u32), r.seed));
+    let holes = pslg.holes.iter().enumerate().map(|(i, &p)| (Element::Hole(i as u32), p));
+    let regions = pslg.regions.iter().enumerate().map(|(i, r)| (Element::Region(i as u32), r.seed));
     for (seed, p) in holes.chain(regions) {
         let kind = match p {
             p if !p.is_finite() => Kind::NotFinite,
@@ -177,10 +106,7 @@ fn numbers(pslg: &Pslg, lines: &Lines, scale: Scale, findings: &mut Findings) {
             _ => continue,
         };
         findings.add(kind, || {
-            let message = format!(
-                "the seed of {seed} at ({:e}, {:e}) cannot be computed with",
-                p.x, p.y
-            );
+            let message = format!("the seed of {seed} at ({:e}, {:e}) cannot be computed with", p.x, p.y);
             Finding::new(kind, vec![seed], vec![p], lines, message)
         });
     }
@@ -188,15 +114,11 @@ fn numbers(pslg: &Pslg, lines: &Lines, scale: Scale, findings: &mut Findings) {
         let e = Element::Region(i as u32);
         if !r.attribute.is_finite() {
             let message = format!("the attribute of {e} is {}", r.attribute);
-            findings.add(Kind::NotFinite, || {
-                Finding::new(Kind::NotFinite, vec![e], vec![r.seed], lines, message)
-            });
+            findings.add(Kind::NotFinite, || Finding::new(Kind::NotFinite, vec![e], vec![r.seed], lines, message));
         }
         if let Some(area) = r.max_area.filter(|a| !(a.is_finite() && *a > 0.0)) {
             let message = format!("the area bound of {e} is {area}, not a positive number");
-            findings.add(Kind::OutOfRange, || {
-                Finding::new(Kind::OutOfRange, vec![e], vec![r.seed], lines, message)
-            });
+            findings.add(Kind::OutOfRange, || Finding::new(Kind::OutOfRange, vec![e], vec![r.seed], lines, message));
         }
     }
 }
@@ -207,17 +129,9 @@ fn spans(pslg: &Pslg, lines: &Lines, vertices: &Vertices, findings: &mut Finding
     for (i, segment) in pslg.segments.iter().enumerate() {
         let e = Element::Segment(SegmentId(i as u32));
         let [u, v] = segment.ends;
-        if let Some(w) = segment
-            .ends
-            .into_iter()
-            .find(|w| w.index() >= pslg.points.len())
-        {
+        if let Some(w) = segment.ends.into_iter().find(|w| w.index() >= pslg.points.len()) {
             findings.add(Kind::BadIndex, || {
-                let message = format!(
-                    "{e} refers to vertex {}, but there are {} vertices",
-                    w.0,
-                    pslg.points.len()
-                );
+                let message = format!("{e} refers to vertex {}, but there are {} vertices", w.0, pslg.points.len());
                 Finding::new(Kind::BadIndex, vec![e], Vec::new(), lines, message)
             });
             continue;
@@ -229,24 +143,14 @@ fn spans(pslg: &Pslg, lines: &Lines, vertices: &Vertices, findings: &mut Finding
                     true => format!("{e} joins vertex {} to itself", u.0),
                     false => format!("{e} joins vertices {} and {}, which coincide", u.0, v.0),
                 };
-                Finding::new(
-                    Kind::ZeroLength,
-                    vec![e],
-                    vec![pslg.points[u.index()]],
-                    lines,
-                    message,
-                )
+                Finding::new(Kind::ZeroLength, vec![e], vec![pslg.points[u.index()]], lines, message)
             });
             continue;
         }
         if ranks.contains(&u32::MAX) {
             continue; // the vertex has its finding
         }
-        let [low, high] = if ranks[0] < ranks[1] {
-            ranks
-        } else {
-            [ranks[1], ranks[0]]
-        };
+        let [low, high] = if ranks[0] < ranks[1] { ranks } else { [ranks[1], ranks[0]] };
         let ends = [vertices.order[low as usize], vertices.order[high as usize]];
         spans.push(Span { ends, id: i as u32 });
     }
@@ -265,18 +169,10 @@ fn report_crossings(
     for &pair in &found.pairs {
         findings.add(Kind::Crossing, || {
             let [s, t] = pair.map(|k| spans[k as usize]);
-            let at = scale.to_input(meeting_point(
-                s.ends.map(|v| points[v as usize]),
-                t.ends.map(|v| points[v as usize]),
-            ));
-            let message = format!(
-                "segments {} and {} cross near ({}, {})",
-                s.id, t.id, at.x, at.y
-            );
-            let elements = vec![
-                Element::Segment(SegmentId(s.id)),
-                Element::Segment(SegmentId(t.id)),
-            ];
+            let at =
+                scale.to_input(meeting_point(s.ends.map(|v| points[v as usize]), t.ends.map(|v| points[v as usize])));
+            let message = format!("segments {} and {} cross near ({}, {})", s.id, t.id, at.x, at.y);
+            let elements = vec![Element::Segment(SegmentId(s.id)), Element::Segment(SegmentId(t.id))];
             debug_assert!((s.id as usize) < pslg.segments.len());
             Finding::new(Kind::Crossing, elements, vec![at], lines, message)
         });
@@ -320,23 +216,13 @@ fn loose_ends(
             });
         }
     }
-    let mut isolated: Vec<u32> = order
-        .iter()
-        .copied()
-        .filter(|&v| degree[v as usize] == 0)
-        .collect();
+    let mut isolated: Vec<u32> = order.iter().copied().filter(|&v| degree[v as usize] == 0).collect();
     isolated.sort_unstable();
     for v in isolated {
         findings.add(Kind::IsolatedVertex, || {
             let at = pslg.points[v as usize];
             let message = format!("vertex {v} at ({}, {}) belongs to no segment", at.x, at.y);
-            Finding::new(
-                Kind::IsolatedVertex,
-                vec![Element::Vertex(VertexId(v))],
-                vec![at],
-                lines,
-                message,
-            )
+            Finding::new(Kind::IsolatedVertex, vec![Element::Vertex(VertexId(v))], vec![at], lines, message)
         });
     }
 }

@@ -45,10 +45,7 @@ impl<'a> Arbitrary<'a> for PointCase {
     fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
         let family = u.arbitrary()?;
         let (n, mut draw) = rest(u)?;
-        Ok(PointCase {
-            family,
-            points: points(family, n, &mut draw),
-        })
+        Ok(PointCase { family, points: points(family, n, &mut draw) })
     }
 }
 
@@ -56,10 +53,7 @@ impl<'a> Arbitrary<'a> for PslgCase {
     fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
         let family = u.arbitrary()?;
         let (n, mut draw) = rest(u)?;
-        Ok(PslgCase {
-            family,
-            pslg: pslg(family, n, &mut draw),
-        })
+        Ok(PslgCase { family, pslg: pslg(family, n, &mut draw) })
     }
 }
 
@@ -67,10 +61,7 @@ impl<'a> Arbitrary<'a> for BrokenCase {
     fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
         let defect = u.arbitrary()?;
         let (n, mut draw) = rest(u)?;
-        Ok(BrokenCase {
-            defect,
-            pslg: broken(defect, n, &mut draw),
-        })
+        Ok(BrokenCase { defect, pslg: broken(defect, n, &mut draw) })
     }
 }
 
@@ -84,25 +75,12 @@ mod tests {
     #[test]
     fn bytes_reach_every_family() {
         let mut draw = SplitMix64(7);
-        let (mut sets, mut graphs, mut defects) =
-            (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
+        let (mut sets, mut graphs, mut defects) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
         for length in 0..4000 {
             let bytes: Vec<u8> = (0..4 + length % 100).map(|_| draw.word() as u8).collect();
-            sets.insert(
-                PointCase::arbitrary(&mut Unstructured::new(&bytes))
-                    .expect("bytes decode")
-                    .family,
-            );
-            graphs.insert(
-                PslgCase::arbitrary(&mut Unstructured::new(&bytes))
-                    .expect("bytes decode")
-                    .family,
-            );
-            defects.insert(
-                BrokenCase::arbitrary(&mut Unstructured::new(&bytes))
-                    .expect("bytes decode")
-                    .defect,
-            );
+            sets.insert(PointCase::arbitrary(&mut Unstructured::new(&bytes)).expect("bytes decode").family);
+            graphs.insert(PslgCase::arbitrary(&mut Unstructured::new(&bytes)).expect("bytes decode").family);
+            defects.insert(BrokenCase::arbitrary(&mut Unstructured::new(&bytes)).expect("bytes decode").defect);
         }
         assert_eq!(sets.len(), PointFamily::ALL.len());
         assert_eq!(graphs.len(), PslgFamily::all().len());

@@ -81,9 +81,7 @@ impl Draw for Bytes<'_> {
         let n = (bytes.clamp(1, 8) as usize).min(self.0.len());
         let (head, tail) = self.0.split_at(n);
         self.0 = tail;
-        head.iter()
-            .rev()
-            .fold(0, |value, &byte| value << 8 | u64::from(byte))
+        head.iter().rev().fold(0, |value, &byte| value << 8 | u64::from(byte))
     }
 }
 
@@ -95,10 +93,7 @@ mod tests {
     #[test]
     fn splitmix_matches_the_reference() {
         let mut draw = SplitMix64(1_234_567);
-        assert_eq!(
-            [draw.word(), draw.word()],
-            [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]
-        );
+        assert_eq!([draw.word(), draw.word()], [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]);
     }
 
     #[test]
@@ -111,12 +106,7 @@ mod tests {
     #[test]
     fn units_stay_in_range() {
         let mut draw = SplitMix64(0);
-        assert!((0..1000).all(
-            |_| (0.0..1.0).contains(&draw.unit()) && (-1.0..1.0).contains(&draw.signed_unit())
-        ));
-        assert_eq!(
-            [two_to(0), two_to(-52), two_to(10)],
-            [1.0, f64::EPSILON, 1024.0]
-        );
+        assert!((0..1000).all(|_| (0.0..1.0).contains(&draw.unit()) && (-1.0..1.0).contains(&draw.signed_unit())));
+        assert_eq!([two_to(0), two_to(-52), two_to(10)], [1.0, f64::EPSILON, 1024.0]);
     }
 }

@@ -39,23 +39,11 @@ impl PslgFamily {
     /// All families, those over point sets with each point family.
     pub fn all() -> Vec<PslgFamily> {
         use PslgFamily::*;
-        let over = PointFamily::ALL
+        let over = PointFamily::ALL.into_iter().flat_map(|f| [Polygon(f), Isolated(f), Constrained(f)]);
+        [Star, Nested, Fan, NearTouching, Comb, Dangling, OnSegments, NearCircle, ConstrainedGrid]
             .into_iter()
-            .flat_map(|f| [Polygon(f), Isolated(f), Constrained(f)]);
-        [
-            Star,
-            Nested,
-            Fan,
-            NearTouching,
-            Comb,
-            Dangling,
-            OnSegments,
-            NearCircle,
-            ConstrainedGrid,
-        ]
-        .into_iter()
-        .chain(over)
-        .collect()
+            .chain(over)
+            .collect()
     }
 }
 
@@ -74,9 +62,7 @@ pub fn pslg(family: PslgFamily, n: usize, draw: &mut impl Draw) -> Pslg {
         PslgFamily::OnSegments => on_segments(n, draw),
         PslgFamily::NearCircle => near_circle(n, draw),
         PslgFamily::ConstrainedGrid => constrained(points(PointFamily::Grid, n, draw), 2.0, draw),
-        PslgFamily::Constrained(family) => {
-            constrained(points(family, n, draw), f64::INFINITY, draw)
-        }
+        PslgFamily::Constrained(family) => constrained(points(family, n, draw), f64::INFINITY, draw),
     }
 }
 
@@ -91,23 +77,13 @@ fn framed(points: Vec<Point2>) -> Pslg {
 
 /// A triangle of the points, then for each point the first edge (from a drawn one on) that may be replaced by the two edges to the point.
 fn simple_polygon(points: &[Point2], draw: &mut impl Draw) -> Pslg {
-    let third = (2..points.len())
-        .find(|&i| turn(points[0], points[1], points[i]) != 0)
-        .unwrap_or(2);
+    let third = (2..points.len()).find(|&i| turn(points[0], points[1], points[i]) != 0).unwrap_or(2);
     let mut ring: Vec<Point2> = vec![points[0], points[1], points[third]];
     let mut loose = Vec::new();
     let keep = draw.coin();
-    for (i, &p) in points
-        .iter()
-        .enumerate()
-        .skip(2)
-        .filter(|&(i, _)| i != third)
-    {
+    for (i, &p) in points.iter().enumerate().skip(2).filter(|&(i, _)| i != third) {
         let start = draw.below(ring.len() as u32) as usize;
-        match (0..ring.len())
-            .map(|k| (start + k) % ring.len())
-            .find(|&k| accepts(&ring, k, p))
-        {
+        match (0..ring.len()).map(|k| (start + k) % ring.len()).find(|&k| accepts(&ring, k, p)) {
             Some(k) => ring.insert(k + 1, p),
             None if keep && i % 2 == 0 => loose.push(p),
             None => {}
@@ -139,28 +115,19 @@ fn accepts(ring: &[Point2], k: usize, p: Point2) -> bool {
 /// Order of direction around the origin, counterclockwise from the positive x axis; exact.
 fn by_direction(a: &Point2, b: &Point2) -> Ordering {
     let half = |p: &Point2| (p.y, p.x) < (0.0, 0.0) || (p.y == 0.0 && p.x < 0.0);
-    half(a)
-        .cmp(&half(b))
-        .then_with(|| turn(Point2::ZERO, *b, *a).cmp(&0))
+    half(a).cmp(&half(b)).then_with(|| turn(Point2::ZERO, *b, *a).cmp(&0))
 }
 
 fn star(n: usize, draw: &mut impl Draw) -> Pslg {
-    let mut directions: Vec<Point2> = [(1, 0), (0, 1), (-1, 0), (0, -1)]
-        .map(|(x, y)| Point2::new(f64::from(x), f64::from(y)))
-        .into();
+    let mut directions: Vec<Point2> =
+        [(1, 0), (0, 1), (-1, 0), (0, -1)].map(|(x, y)| Point2::new(f64::from(x), f64::from(y))).into();
     for _ in 4..n {
-        directions.push(Point2::new(
-            f64::from(draw.integer(-9, 9)),
-            f64::from(draw.integer(-9, 9)),
-        ));
+        directions.push(Point2::new(f64::from(draw.integer(-9, 9)), f64::from(draw.integer(-9, 9))));
     }
     directions.retain(|&p| p != Point2::ZERO);
     directions.sort_by(by_direction);
     directions.dedup_by(|a, b| by_direction(a, b) == Ordering::Equal);
-    let corners: Vec<Point2> = directions
-        .into_iter()
-        .map(|p| p * f64::from(draw.integer(1, 64)))
-        .collect();
+    let corners: Vec<Point2> = directions.into_iter().map(|p| p * f64::from(draw.integer(1, 64))).collect();
     let mut graph = Planar::default();
     graph.polygon(&corners);
     graph.finish()
@@ -170,12 +137,7 @@ fn nested(n: usize, draw: &mut impl Draw) -> Pslg {
     let mut graph = Planar::default();
     let (mut low, mut high) = (Point2::ZERO, Point2::splat(4096.0));
     for _ in 0..(n / 4).clamp(2, 6) {
-        graph.polygon(&[
-            low,
-            Point2::new(high.x, low.y),
-            high,
-            Point2::new(low.x, high.y),
-        ]);
+        graph.polygon(&[low, Point2::new(high.x, low.y), high, Point2::new(low.x, high.y)]);
         let gap = two_to(draw.integer(0, 10)).min((high.x - low.x) / 8.0);
         let seed = low + gap / 2.0;
         if draw.coin() {
@@ -195,17 +157,10 @@ fn nested(n: usize, draw: &mut impl Draw) -> Pslg {
 fn fan(n: usize, draw: &mut impl Draw) -> Pslg {
     let far = two_to(draw.integer(0, 20)) * n as f64;
     let mut graph = Planar::default();
-    graph.polygon(&[
-        Point2::new(0.0, 0.0),
-        Point2::new(far, -1.0),
-        Point2::new(far, n as f64),
-    ]);
+    graph.polygon(&[Point2::new(0.0, 0.0), Point2::new(far, -1.0), Point2::new(far, n as f64)]);
     for k in 0..n as i32 - 3 {
         // Spokes end short of the far side, at integer heights.
-        let end = Point2::new(
-            far * 0.875 * (1.0 - f64::from(draw.below(4)) / 8.0),
-            0.75 * f64::from(k),
-        );
+        let end = Point2::new(far * 0.875 * (1.0 - f64::from(draw.below(4)) / 8.0), 0.75 * f64::from(k));
         if let Some(end) = graph.vertex(end) {
             graph.segment(0, end);
         }
@@ -218,14 +173,9 @@ fn near_touching(n: usize, draw: &mut impl Draw) -> Pslg {
     let mut height = 0.0;
     for _ in 0..n / 2 {
         height += two_to(-draw.integer(2, 40));
-        let (left, right) = (
-            f64::from(draw.integer(0, 3)) / 8.0,
-            0.5 + f64::from(draw.integer(0, 4)) / 8.0,
-        );
-        if let (Some(u), Some(v)) = (
-            graph.vertex(Point2::new(left, height)),
-            graph.vertex(Point2::new(right, height)),
-        ) {
+        let (left, right) = (f64::from(draw.integer(0, 3)) / 8.0, 0.5 + f64::from(draw.integer(0, 4)) / 8.0);
+        if let (Some(u), Some(v)) = (graph.vertex(Point2::new(left, height)), graph.vertex(Point2::new(right, height)))
+        {
             graph.segment(u, v);
         }
     }
@@ -236,15 +186,11 @@ fn near_touching(n: usize, draw: &mut impl Draw) -> Pslg {
 fn comb(n: usize, draw: &mut impl Draw) -> Pslg {
     let slits = (n / 3).clamp(1, 500);
     let depth = f64::from(draw.integer(1, 8)) / 8.0;
-    let mut corners = vec![
-        Point2::new(0.0, -1.0),
-        Point2::new(slits as f64 + 1.0, -1.0),
-    ];
+    let mut corners = vec![Point2::new(0.0, -1.0), Point2::new(slits as f64 + 1.0, -1.0)];
     corners.push(Point2::new(slits as f64 + 1.0, 1.0));
     for i in (1..=slits).rev() {
         let (x, width) = (i as f64, two_to(-draw.integer(1, 30)));
-        corners
-            .extend([(x, 1.0), (x - width / 2.0, 1.0 - depth), (x - width, 1.0)].map(Point2::from));
+        corners.extend([(x, 1.0), (x - width / 2.0, 1.0 - depth), (x - width, 1.0)].map(Point2::from));
     }
     // Neighbouring slits never share a mouth: widths are at most a half. The last corner closes the polygon at x = 0.
     corners.push(Point2::new(0.0, 1.0));
@@ -258,10 +204,7 @@ fn dangling(n: usize, draw: &mut impl Draw) -> Pslg {
     let mut graph = Planar::default();
     let mut last = None;
     for _ in 0..n {
-        let p = Point2::new(
-            f64::from(draw.integer(0, side)),
-            f64::from(draw.integer(0, side)),
-        );
+        let p = Point2::new(f64::from(draw.integer(0, side)), f64::from(draw.integer(0, side)));
         let end = graph.vertex(p);
         if let (Some(u), Some(v)) = (last, end) {
             graph.segment(u, v);
@@ -276,11 +219,7 @@ fn dangling(n: usize, draw: &mut impl Draw) -> Pslg {
 fn on_segments(n: usize, draw: &mut impl Draw) -> Pslg {
     let side = two_to(draw.integer(-20, 20));
     let corner = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(Point2::from);
-    let segment = |u, v, marker| Segment {
-        ends: [VertexId(u), VertexId(v)],
-        marker,
-        toggles: true,
-    };
+    let segment = |u, v, marker| Segment { ends: [VertexId(u), VertexId(v)], marker, toggles: true };
     let mut segments: Vec<Segment> = (0..4).map(|i| segment(i, (i + 1) % 4, 1)).collect();
     if draw.coin() {
         segments.push(segment(0, 2, 2));
@@ -297,11 +236,7 @@ fn on_segments(n: usize, draw: &mut impl Draw) -> Pslg {
         }
     }
     let points = all.into_iter().map(|p| p * side).collect();
-    Pslg {
-        points,
-        segments,
-        ..Pslg::default()
-    }
+    Pslg { points, segments, ..Pslg::default() }
 }
 
 fn near_circle(n: usize, draw: &mut impl Draw) -> Pslg {
@@ -309,11 +244,8 @@ fn near_circle(n: usize, draw: &mut impl Draw) -> Pslg {
     ring.sort_by(by_direction);
     let noise = two_to(-draw.integer(8, 50));
     let stride = ring.len().div_ceil(n.max(4)).max(1);
-    let corners: Vec<Point2> = ring
-        .into_iter()
-        .step_by(stride)
-        .map(|p| p * (1.0 + noise * draw.signed_unit()))
-        .collect();
+    let corners: Vec<Point2> =
+        ring.into_iter().step_by(stride).map(|p| p * (1.0 + noise * draw.signed_unit())).collect();
     let mut graph = Planar::default();
     graph.polygon(&corners);
     graph.finish()
@@ -348,14 +280,7 @@ mod tests {
             let y = x * two_to(20);
             (y.abs() < two_to(50) && y.trunc() == y).then_some(y as i128)
         };
-        let [ax, ay, bx, by, cx, cy] = [
-            whole(a.x)?,
-            whole(a.y)?,
-            whole(b.x)?,
-            whole(b.y)?,
-            whole(c.x)?,
-            whole(c.y)?,
-        ];
+        let [ax, ay, bx, by, cx, cy] = [whole(a.x)?, whole(a.y)?, whole(b.x)?, whole(b.y)?, whole(c.x)?, whole(c.y)?];
         Some(((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).signum())
     }
 
@@ -412,19 +337,14 @@ mod tests {
                     assert_eq!(is_valid(&g), Ok(()), "{family:?} {seed}");
                 }
             }
-            assert!(
-                has_cycle(&pslg(family, 8, &mut Bytes(&[]))),
-                "{family:?} from zeros"
-            );
+            assert!(has_cycle(&pslg(family, 8, &mut Bytes(&[]))), "{family:?} from zeros");
         }
     }
 
     #[test]
     fn families_show_their_features() {
         let with = |family, feature: &dyn Fn(&Pslg) -> bool| {
-            (0..40)
-                .filter(|&seed| feature(&pslg(family, 24, &mut SplitMix64(seed))))
-                .count()
+            (0..40).filter(|&seed| feature(&pslg(family, 24, &mut SplitMix64(seed)))).count()
         };
         let on_segment = |g: &Pslg| {
             g.segments.iter().any(|s| {
@@ -432,12 +352,7 @@ mod tests {
                 g.points.iter().any(|&p| inside_segment(p, a, b))
             })
         };
-        let degree = |g: &Pslg, v: usize| {
-            g.segments
-                .iter()
-                .filter(|s| s.ends.iter().any(|e| e.index() == v))
-                .count()
-        };
+        let degree = |g: &Pslg, v: usize| g.segments.iter().filter(|s| s.ends.iter().any(|e| e.index() == v)).count();
         let isolated = |g: &Pslg| (0..g.points.len()).any(|v| degree(g, v) == 0);
         let dangling = |g: &Pslg| (0..g.points.len()).any(|v| degree(g, v) == 1);
         assert_eq!(with(PslgFamily::OnSegments, &on_segment), 40);
@@ -445,20 +360,8 @@ mod tests {
         assert!(with(PslgFamily::Dangling, &dangling) > 30);
         assert!(with(PslgFamily::Fan, &|g| degree(g, 0) > 10) > 30);
         assert!(with(PslgFamily::Nested, &|g| !g.holes.is_empty()) > 5);
-        assert!(
-            with(PslgFamily::Nested, &|g| g
-                .regions
-                .iter()
-                .any(|r| r.max_area.is_some()))
-                > 5
-        );
-        assert!(
-            with(PslgFamily::Polygon(PointFamily::Grid), &|g| g
-                .segments
-                .len()
-                > 8)
-                > 30
-        );
+        assert!(with(PslgFamily::Nested, &|g| g.regions.iter().any(|r| r.max_area.is_some())) > 5);
+        assert!(with(PslgFamily::Polygon(PointFamily::Grid), &|g| g.segments.len() > 8) > 30);
         assert!(with(PslgFamily::ConstrainedGrid, &|g| g.segments.len() > 6) > 30);
     }
 }

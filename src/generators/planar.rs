@@ -108,53 +108,25 @@ impl Planar {
 
     /// Adds a region with its number as attribute.
     pub fn region(&mut self, seed: Point2, max_area: Option<f64>) {
-        self.regions.push(Region {
-            seed,
-            attribute: self.regions.len() as f64 + 1.0,
-            max_area,
-        });
+        self.regions.push(Region { seed, attribute: self.regions.len() as f64 + 1.0, max_area });
     }
 
     /// The axis-parallel box around all vertices, wider by its size on every side, as a closed polygon. Its sides are rounded, not exact.
     pub fn frame(&mut self) {
-        let low = self
-            .points
-            .iter()
-            .copied()
-            .reduce(Point2::min)
-            .unwrap_or(Point2::ZERO);
-        let high = self
-            .points
-            .iter()
-            .copied()
-            .reduce(Point2::max)
-            .unwrap_or(Point2::ONE);
+        let low = self.points.iter().copied().reduce(Point2::min).unwrap_or(Point2::ZERO);
+        let high = self.points.iter().copied().reduce(Point2::max).unwrap_or(Point2::ONE);
         let size = high - low;
-        let margin = size
-            .x
-            .max(size.y)
-            .max(low.abs().max_element() * super::draw::two_to(-40))
-            .max(super::draw::two_to(-100));
+        let margin =
+            size.x.max(size.y).max(low.abs().max_element() * super::draw::two_to(-40)).max(super::draw::two_to(-100));
         let (low, high) = (low - margin, high + margin);
-        self.polygon(&[
-            low,
-            Point2::new(high.x, low.y),
-            high,
-            Point2::new(low.x, high.y),
-        ]);
+        self.polygon(&[low, Point2::new(high.x, low.y), high, Point2::new(low.x, high.y)]);
     }
 
     /// The graph as plain data; markers of segments are their numbers modulo 7.
     pub fn finish(self) -> Pslg {
         let segments = (0..).zip(&self.segments);
         Pslg {
-            segments: segments
-                .map(|(i, s)| Segment {
-                    ends: s.map(VertexId),
-                    marker: i % 7,
-                    toggles: true,
-                })
-                .collect(),
+            segments: segments.map(|(i, s)| Segment { ends: s.map(VertexId), marker: i % 7, toggles: true }).collect(),
             points: self.points,
             holes: self.holes,
             regions: self.regions,

@@ -45,20 +45,16 @@ impl PointFamily {
 pub fn points(family: PointFamily, n: usize, draw: &mut impl Draw) -> Vec<Point2> {
     let n = n.max(3);
     let drawn = match family {
-        PointFamily::Random => (0..n)
-            .map(|_| Point2::new(draw.unit(), draw.unit()))
-            .collect(),
+        PointFamily::Random => (0..n).map(|_| Point2::new(draw.unit(), draw.unit())).collect(),
         PointFamily::Grid => grid(n, draw),
         PointFamily::NearDegenerate => near_degenerate(n, draw),
         PointFamily::Cocircular => cocircular(n, draw),
         PointFamily::Collinear => collinear(n, draw),
         PointFamily::Clusters => clusters(n, draw),
-        PointFamily::Offset => (0..n)
-            .map(|_| Point2::new(1e6 + 1e-3 * draw.unit(), 1e6 + 1e-3 * draw.unit()))
-            .collect(),
-        PointFamily::WildScales => (0..n)
-            .map(|_| Point2::new(wild(draw), wild(draw)))
-            .collect(),
+        PointFamily::Offset => {
+            (0..n).map(|_| Point2::new(1e6 + 1e-3 * draw.unit(), 1e6 + 1e-3 * draw.unit())).collect()
+        }
+        PointFamily::WildScales => (0..n).map(|_| Point2::new(wild(draw), wild(draw))).collect(),
     };
     spread(distinct(drawn))
 }
@@ -80,14 +76,8 @@ fn spread(mut points: Vec<Point2>) -> Vec<Point2> {
         [a, b, rest @ ..] => rest.iter().all(|&c| turn(*a, *b, c) == 0),
         _ => true,
     };
-    let far = points
-        .iter()
-        .fold(1.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
-    for corner in [
-        Point2::new(-2.0 * far, 0.0),
-        Point2::new(far, 3.0 * far),
-        Point2::new(far, -4.0 * far),
-    ] {
+    let far = points.iter().fold(1.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
+    for corner in [Point2::new(-2.0 * far, 0.0), Point2::new(far, 3.0 * far), Point2::new(far, -4.0 * far)] {
         if flat(&points) {
             points.push(corner);
         }
@@ -98,14 +88,7 @@ fn spread(mut points: Vec<Point2>) -> Vec<Point2> {
 fn grid(n: usize, draw: &mut impl Draw) -> Vec<Point2> {
     let root = (1..).find(|k| k * k >= n).unwrap_or(1) as i32;
     let side = draw.integer((root / 2).max(1), 2 * root);
-    (0..n)
-        .map(|_| {
-            Point2::new(
-                f64::from(draw.integer(0, side)),
-                f64::from(draw.integer(0, side)),
-            )
-        })
-        .collect()
+    (0..n).map(|_| Point2::new(f64::from(draw.integer(0, side)), f64::from(draw.integer(0, side)))).collect()
 }
 
 fn near_degenerate(n: usize, draw: &mut impl Draw) -> Vec<Point2> {
@@ -114,13 +97,9 @@ fn near_degenerate(n: usize, draw: &mut impl Draw) -> Vec<Point2> {
         1 => collinear(n, draw),
         _ => cocircular(n, draw),
     };
-    let size = base
-        .iter()
-        .fold(1.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
+    let size = base.iter().fold(1.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
     let noise = size * two_to(-draw.integer(10, 55));
-    base.into_iter()
-        .map(|p| p + noise * Point2::new(draw.signed_unit(), draw.signed_unit()))
-        .collect()
+    base.into_iter().map(|p| p + noise * Point2::new(draw.signed_unit(), draw.signed_unit())).collect()
 }
 
 /// Lattice points of the circle x^2 + y^2 = r2, in ascending order of x, then y.
@@ -129,25 +108,14 @@ pub(super) fn circle(r2: i32) -> Vec<Point2> {
     let on = |x: i32| {
         let y2 = r2 - x * x;
         let y = (0..=bound).find(|y| y * y >= y2).filter(|y| y * y == y2);
-        y.into_iter().flat_map(move |y| {
-            if y == 0 {
-                vec![(x, 0)]
-            } else {
-                vec![(x, -y), (x, y)]
-            }
-        })
+        y.into_iter().flat_map(move |y| if y == 0 { vec![(x, 0)] } else { vec![(x, -y), (x, y)] })
     };
-    (-bound + 1..bound)
-        .flat_map(on)
-        .map(|(x, y)| Point2::new(f64::from(x), f64::from(y)))
-        .collect()
+    (-bound + 1..bound).flat_map(on).map(|(x, y)| Point2::new(f64::from(x), f64::from(y))).collect()
 }
 
 fn cocircular(n: usize, draw: &mut impl Draw) -> Vec<Point2> {
     const RADII2: [i32; 7] = [25, 325, 1105, 5525, 27625, 138_125, 1_185_665];
-    let rings: Vec<Vec<Point2>> = (0..draw.integer(1, 3))
-        .map(|_| circle(RADII2[draw.below(7) as usize]))
-        .collect();
+    let rings: Vec<Vec<Point2>> = (0..draw.integer(1, 3)).map(|_| circle(RADII2[draw.below(7) as usize])).collect();
     let center = draw.coin().then_some(Point2::ZERO);
     let pick = |_| {
         let ring = &rings[draw.below(rings.len() as u32) as usize];
@@ -157,13 +125,9 @@ fn cocircular(n: usize, draw: &mut impl Draw) -> Vec<Point2> {
 }
 
 fn collinear(n: usize, draw: &mut impl Draw) -> Vec<Point2> {
-    let small = |draw: &mut dyn FnMut(i32, i32) -> i32| {
-        Point2::new(f64::from(draw(-7, 7)), f64::from(draw(-7, 7)))
-    };
+    let small = |draw: &mut dyn FnMut(i32, i32) -> i32| Point2::new(f64::from(draw(-7, 7)), f64::from(draw(-7, 7)));
     let mut integer = |low, high| draw.integer(low, high);
-    let lines: Vec<(Point2, Point2)> = (0..integer(1, 5))
-        .map(|_| (small(&mut integer), small(&mut integer)))
-        .collect();
+    let lines: Vec<(Point2, Point2)> = (0..integer(1, 5)).map(|_| (small(&mut integer), small(&mut integer))).collect();
     let mut point = |i: usize| match lines.get(integer(0, 5) as usize) {
         Some(&(start, step)) => start + f64::from(integer(-(i as i32) - 1, i as i32 + 1)) * step,
         None if integer(0, 3) == 0 => small(&mut integer),
@@ -174,12 +138,7 @@ fn collinear(n: usize, draw: &mut impl Draw) -> Vec<Point2> {
 
 fn clusters(n: usize, draw: &mut impl Draw) -> Vec<Point2> {
     let centers: Vec<(Point2, f64)> = (0..draw.integer(1, 6))
-        .map(|_| {
-            (
-                Point2::new(draw.unit(), draw.unit()),
-                two_to(-draw.integer(4, 36)),
-            )
-        })
+        .map(|_| (Point2::new(draw.unit(), draw.unit()), two_to(-draw.integer(4, 36))))
         .collect();
     (0..n)
         .map(|_| {
@@ -205,19 +164,9 @@ mod tests {
             for seed in 0..60 {
                 let n = 4 + seed as usize;
                 let set = points(family, n, &mut SplitMix64(seed));
-                assert!(
-                    (3..=n + 3).contains(&set.len()),
-                    "{family:?} {seed}: {} points for {n}",
-                    set.len()
-                );
-                assert!(
-                    set.iter().enumerate().all(|(i, p)| !set[..i].contains(p)),
-                    "{family:?} {seed}: repeated"
-                );
-                assert!(
-                    set[2..].iter().any(|&c| turn(set[0], set[1], c) != 0),
-                    "{family:?} {seed}: flat"
-                );
+                assert!((3..=n + 3).contains(&set.len()), "{family:?} {seed}: {} points for {n}", set.len());
+                assert!(set.iter().enumerate().all(|(i, p)| !set[..i].contains(p)), "{family:?} {seed}: repeated");
+                assert!(set[2..].iter().any(|&c| turn(set[0], set[1], c) != 0), "{family:?} {seed}: flat");
                 assert!(set.iter().all(|p| p.is_finite()));
             }
         }
@@ -227,13 +176,7 @@ mod tests {
     #[test]
     fn families_have_the_ties_they_promise() {
         let count = |family, tie: fn(&[Point2]) -> bool| {
-            (0..20)
-                .filter(|&seed| {
-                    points(family, 30, &mut SplitMix64(seed))
-                        .windows(4)
-                        .any(tie)
-                })
-                .count()
+            (0..20).filter(|&seed| points(family, 30, &mut SplitMix64(seed)).windows(4).any(tie)).count()
         };
         let cocircular = |w: &[Point2]| {
             let [a, b, c, d] = [w[0], w[1], w[2], w[3]].map(|p| robust::Coord { x: p.x, y: p.y });
@@ -248,10 +191,7 @@ mod tests {
 
     #[test]
     fn circles_hold_all_their_lattice_points() {
-        assert_eq!(
-            [25, 325, 1105, 1_185_665].map(|r2| circle(r2).len()),
-            [12, 24, 32, 128]
-        );
+        assert_eq!([25, 325, 1105, 1_185_665].map(|r2| circle(r2).len()), [12, 24, 32, 128]);
     }
 
     /// All-zero draws, as from an exhausted fuzzer, still give a set that can be triangulated.

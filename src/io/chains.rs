@@ -55,10 +55,7 @@ impl Tally {
 }
 
 /// The text of a file of nested lists. A point takes at least 4 bytes, so that the largest file allowed has fewer than 2^31 points.
-pub(super) fn text_of_chains<'a>(
-    part: &'static str,
-    bytes: &'a [u8],
-) -> Result<&'a str, ReadError> {
+pub(super) fn text_of_chains<'a>(part: &'static str, bytes: &'a [u8]) -> Result<&'a str, ReadError> {
     if bytes.len() as u64 > 4 * MOST_ELEMENTS {
         let problem = format!("the file has {} bytes", bytes.len());
         return Err(ReadError {
@@ -135,11 +132,7 @@ impl Chains {
         let next = segments.len();
         let at = *self.segments.entry([a.min(b), a.max(b)]).or_insert(next);
         if at == next {
-            segments.push(Segment {
-                ends: [a, b],
-                marker: 0,
-                toggles: false,
-            });
+            segments.push(Segment { ends: [a, b], marker: 0, toggles: false });
             self.input.lines.segments.push(line);
         } else {
             self.doubled.add(line);
@@ -150,34 +143,14 @@ impl Chains {
     /// The graph, with notes on what was merged.
     pub(super) fn finish(mut self) -> Input {
         let tallies = [
-            (
-                NoteKind::Repair,
-                self.merged,
-                "points merged with an earlier equal one",
-            ),
-            (
-                NoteKind::Repair,
-                self.doubled,
-                "segments merged with an earlier equal one",
-            ),
-            (
-                NoteKind::Repair,
-                self.zero,
-                "segments with equal ends, dropped",
-            ),
-            (
-                NoteKind::Note,
-                self.flattened,
-                "positions with more than two coordinates, of which x and y are used",
-            ),
+            (NoteKind::Repair, self.merged, "points merged with an earlier equal one"),
+            (NoteKind::Repair, self.doubled, "segments merged with an earlier equal one"),
+            (NoteKind::Repair, self.zero, "segments with equal ends, dropped"),
+            (NoteKind::Note, self.flattened, "positions with more than two coordinates, of which x and y are used"),
         ];
         for (kind, tally, what) in tallies {
             if tally.count > 0 {
-                self.input.notes.push(Note {
-                    kind,
-                    line: tally.line,
-                    text: format!("{what}: {}", tally.count),
-                });
+                self.input.notes.push(Note { kind, line: tally.line, text: format!("{what}: {}", tally.count) });
             }
         }
         self.input

@@ -20,18 +20,8 @@ impl<'a> Cursor<'a> {
     pub(super) fn new(part: &'static str, text: &'a str, at: usize) -> Cursor<'a> {
         let before = &text.as_bytes()[..at];
         let line = 1 + before.iter().filter(|&&b| b == b'\n').count();
-        let line_start = before
-            .iter()
-            .rposition(|&b| b == b'\n')
-            .map_or(0, |p| p + 1);
-        Cursor {
-            part,
-            text,
-            at,
-            line,
-            line_start,
-            element: String::new(),
-        }
+        let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |p| p + 1);
+        Cursor { part, text, at, line, line_start, element: String::new() }
     }
 
     /// The current line.
@@ -54,15 +44,9 @@ impl<'a> Cursor<'a> {
     /// An error that says what should stand at the current place.
     pub(super) fn wanted(&self, what: &str) -> ReadError {
         let rest = &self.text[self.at..];
-        let found: &str = rest
-            .split(|c: char| c.is_ascii_whitespace())
-            .next()
-            .unwrap_or("");
+        let found: &str = rest.split(|c: char| c.is_ascii_whitespace()).next().unwrap_or("");
         match found {
-            "" => self.fault(
-                format!("the file ends where {what} is due"),
-                "the file is truncated",
-            ),
+            "" => self.fault(format!("the file ends where {what} is due"), "the file is truncated"),
             _ => self.fault(format!("`{}` stands where {what} is due", shown(found)), ""),
         }
     }
@@ -107,11 +91,7 @@ impl<'a> Cursor<'a> {
 
     /// Goes past a punctuation mark, which must be next.
     pub(super) fn expect(&mut self, mark: u8, what: &str) -> Result<(), ReadError> {
-        if self.take(mark) {
-            Ok(())
-        } else {
-            Err(self.wanted(what))
-        }
+        if self.take(mark) { Ok(()) } else { Err(self.wanted(what)) }
     }
 
     /// Goes past a run of bytes of some class and returns it; it may be empty. The class holds no line end.

@@ -16,8 +16,7 @@ impl Flat {
     /// Errors: it differs from the others'.
     pub(super) fn z(&mut self, row: &mut Row) -> Result<(), ReadError> {
         let z = row.float("z")?;
-        self.check(z, row.line)
-            .map_err(|problem| row.fault(problem, FIX))
+        self.check(z, row.line).map_err(|problem| row.fault(problem, FIX))
     }
 
     /// The same for a number without a row; the error is a phrase.
@@ -27,11 +26,7 @@ impl Flat {
             self.line = line;
         }
         // No minus zero is left by the reader of numbers.
-        if height.to_bits() == z.to_bits() {
-            Ok(())
-        } else {
-            Err(format!("z is {z:?}, but {height:?} before"))
-        }
+        if height.to_bits() == z.to_bits() { Ok(()) } else { Err(format!("z is {z:?}, but {height:?} before")) }
     }
 
     /// A note if the plane is not z = 0.

@@ -56,19 +56,11 @@ impl ForeignMesh {
             let [a, b] = e.ends;
             let ends: Edge = if a <= b { [a, b] } else { [b, a] };
             // Readers hold every count below 2^31.
-            MeshEdge {
-                ends,
-                marker: e.marker,
-                segment: SegmentId(i as u32),
-            }
+            MeshEdge { ends, marker: e.marker, segment: SegmentId(i as u32) }
         };
         Mesh2 {
             kinds: vec![VertexKind::Input; n],
-            point_markers: if self.point_markers.is_empty() {
-                vec![0; n]
-            } else {
-                self.point_markers
-            },
+            point_markers: if self.point_markers.is_empty() { vec![0; n] } else { self.point_markers },
             edges: self.edges.iter().enumerate().map(edge).collect(),
             points: self.points,
             attributes: self.attributes,
@@ -88,14 +80,7 @@ impl From<&Mesh2> for ForeignMesh {
             attributes_per_point: mesh.attributes_per_point,
             triangles: mesh.triangles.clone(),
             triangle_attributes: mesh.triangle_attributes.clone(),
-            edges: mesh
-                .edges
-                .iter()
-                .map(|e| ForeignEdge {
-                    ends: e.ends,
-                    marker: e.marker,
-                })
-                .collect(),
+            edges: mesh.edges.iter().map(|e| ForeignEdge { ends: e.ends, marker: e.marker }).collect(),
             ..ForeignMesh::default()
         }
     }

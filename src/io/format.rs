@@ -1,10 +1,7 @@
 //! Formats by the extension of a file's name, and what each of them can hold.
 
 use super::{ForeignMesh, Input, ReadError, TriangleFiles, write};
-use super::{
-    parse_geojson, parse_msh, parse_node, parse_node_ele, parse_off, parse_poly, parse_vtu,
-    parse_wkt,
-};
+use super::{parse_geojson, parse_msh, parse_node, parse_node_ele, parse_off, parse_poly, parse_vtu, parse_wkt};
 use crate::model::{Mesh2, Pslg};
 use std::path::Path;
 
@@ -54,26 +51,17 @@ impl Format {
     /// The format of a file by its extension, whatever its case.
     pub fn of(path: &Path) -> Option<Format> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
-        EXTENSIONS
-            .iter()
-            .find(|(_, names)| names.contains(&extension.as_str()))
-            .map(|&(format, _)| format)
+        EXTENSIONS.iter().find(|(_, names)| names.contains(&extension.as_str())).map(|&(format, _)| format)
     }
 
     /// The usual extension, without the dot.
     pub fn extension(self) -> &'static str {
-        EXTENSIONS
-            .iter()
-            .find(|(f, _)| *f == self)
-            .map_or("", |(_, names)| names[0])
+        EXTENSIONS.iter().find(|(f, _)| *f == self).map_or("", |(_, names)| names[0])
     }
 
     /// Whether planar straight line graphs (or points) are read from it.
     pub fn reads_pslg(self) -> bool {
-        matches!(
-            self,
-            Format::Poly | Format::Node | Format::Wkt | Format::GeoJson
-        )
+        matches!(self, Format::Poly | Format::Node | Format::Wkt | Format::GeoJson)
     }
 
     /// Whether meshes are read from it. `.node`, `.ele`, `.poly` and `.edge` name a mesh together.
@@ -135,9 +123,7 @@ pub fn read_pslg(
     mut companion: impl FnMut(Format) -> Option<Vec<u8>>,
 ) -> Option<Result<Input, ReadError>> {
     Some(match format {
-        Format::Poly if super::poly_wants_node(bytes) => {
-            parse_poly(bytes, companion(Format::Node).as_deref())
-        }
+        Format::Poly if super::poly_wants_node(bytes) => parse_poly(bytes, companion(Format::Node).as_deref()),
         Format::Poly => parse_poly(bytes, None),
         Format::Node => parse_node(bytes),
         Format::Wkt => parse_wkt(bytes),
@@ -157,11 +143,7 @@ pub fn read_mesh(
     Some(match format {
         Format::Poly | Format::Node | Format::Ele | Format::Edge => {
             let mut part = |f: Format| {
-                if f == format {
-                    Some(bytes.to_vec())
-                } else {
-                    companion(f)
-                }
+                if f == format { Some(bytes.to_vec()) } else { companion(f) }
             };
             let (node, ele) = (part(Format::Node), part(Format::Ele));
             let (poly, edge) = (part(Format::Poly), part(Format::Edge));

@@ -39,11 +39,7 @@ struct Object<'a> {
 /// Errors: the first fault.
 pub fn parse_geojson(bytes: &[u8]) -> Result<Input, ReadError> {
     let text = text_of_chains("GeoJSON", bytes)?;
-    let mut reader = Reader {
-        text,
-        chains: Chains::default(),
-        feature: 0,
-    };
+    let mut reader = Reader { text, chains: Chains::default(), feature: 0 };
     reader.object(text, 0)?;
     Ok(reader.chains.finish())
 }
@@ -65,18 +61,12 @@ impl<'a> Reader<'a> {
     }
 
     fn element(&self) -> String {
-        if self.feature > 0 {
-            format!("feature {}", self.feature)
-        } else {
-            String::new()
-        }
+        if self.feature > 0 { format!("feature {}", self.feature) } else { String::new() }
     }
 
     fn object(&mut self, part: &'a str, depth: u32) -> Result<(), ReadError> {
         if depth == DEEPEST {
-            return Err(self
-                .cursor(part)
-                .fault("the objects are nested too deeply", "flatten them"));
+            return Err(self.cursor(part).fault("the objects are nested too deeply", "flatten them"));
         }
         let mut start = self.cursor(part);
         // A derived reader would take an array of the members' values too.
@@ -84,10 +74,7 @@ impl<'a> Reader<'a> {
             return Err(start.wanted("an object"));
         }
         let object: Object = serde_json::from_str(part).map_err(|e| self.fault(part, &e))?;
-        let missing = |name: &str| {
-            self.cursor(part)
-                .fault(format!("a {} without \"{name}\"", object.kind), "")
-        };
+        let missing = |name: &str| self.cursor(part).fault(format!("a {} without \"{name}\"", object.kind), "");
         match &*object.kind {
             "FeatureCollection" => {
                 for feature in object.features.ok_or_else(|| missing("features"))? {
@@ -124,21 +111,11 @@ impl<'a> Reader<'a> {
     fn fault(&self, part: &str, e: &serde_json::Error) -> ReadError {
         let start = self.cursor(part).fault("", "");
         let sentence = e.to_string();
-        let problem = sentence
-            .split(" at line ")
-            .next()
-            .unwrap_or(&sentence)
-            .to_string();
+        let problem = sentence.split(" at line ").next().unwrap_or(&sentence).to_string();
         let column = clipped(e.column());
         ReadError {
-            line: start
-                .line
-                .saturating_add(clipped(e.line().saturating_sub(1))),
-            column: if e.line() <= 1 {
-                (start.column - 1).saturating_add(column)
-            } else {
-                column
-            },
+            line: start.line.saturating_add(clipped(e.line().saturating_sub(1))),
+            column: if e.line() <= 1 { (start.column - 1).saturating_add(column) } else { column },
             problem,
             ..start
         }
@@ -201,15 +178,8 @@ fn vacant(at: &mut Cursor) -> bool {
     at.take_both(SQUARE)
 }
 
-fn list(
-    at: &mut Cursor,
-    item: impl FnMut(&mut Cursor) -> Result<(), ReadError>,
-) -> Result<(), ReadError> {
-    if vacant(at) {
-        Ok(())
-    } else {
-        at.list(SQUARE, item)
-    }
+fn list(at: &mut Cursor, item: impl FnMut(&mut Cursor) -> Result<(), ReadError>) -> Result<(), ReadError> {
+    if vacant(at) { Ok(()) } else { at.list(SQUARE, item) }
 }
 
 fn position(at: &mut Cursor, chains: &mut Chains) -> Result<Position, ReadError> {
@@ -226,18 +196,12 @@ fn position(at: &mut Cursor, chains: &mut Chains) -> Result<Position, ReadError>
         Ok(())
     })?;
     match count {
-        0 | 1 => Err(at.fault(
-            "the position that ends here has fewer than 2 numbers",
-            "give x and y",
-        )),
+        0 | 1 => Err(at.fault("the position that ends here has fewer than 2 numbers", "give x and y")),
         _ => {
             if count > 2 {
                 chains.flattened(line);
             }
-            Ok(Position {
-                point: Point2::new(numbers[0], numbers[1]),
-                line,
-            })
+            Ok(Position { point: Point2::new(numbers[0], numbers[1]), line })
         }
     }
 }

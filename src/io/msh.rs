@@ -33,10 +33,7 @@ pub fn parse_msh(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
         "2.2" | "2.1" | "2" => Version::Two,
         "4.1" => Version::Four,
         other => {
-            return Err(format.fault(
-                format!("the version is {}", shown(other)),
-                "save it as version 4.1 or 2.2",
-            ));
+            return Err(format.fault(format!("the version is {}", shown(other)), "save it as version 4.1 or 2.2"));
         }
     };
     let mut file = File::new(rows, version);
@@ -56,17 +53,13 @@ pub fn parse_msh(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
                 file.elements()?;
             }
             Some("Nodes" | "Elements") => {
-                return Err(row.fault(
-                    format!("{name} stands out of order or twice"),
-                    "one $Nodes comes before one $Elements",
-                ));
+                return Err(
+                    row.fault(format!("{name} stands out of order or twice"), "one $Nodes comes before one $Elements")
+                );
             }
             Some(other) if !other.starts_with("End") => file.skip(other)?,
             _ => {
-                return Err(row.fault(
-                    format!("`{}` stands where a section is due", shown(name)),
-                    "",
-                ));
+                return Err(row.fault(format!("`{}` stands where a section is due", shown(name)), ""));
             }
         }
     }
@@ -83,8 +76,7 @@ pub fn parse_msh(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
 fn refuse_binary(bytes: &[u8]) -> Option<ReadError> {
     let start = &bytes[..bytes.len().min(64)];
     let mut lines = start.split(|&b| b == b'\n').map(<[u8]>::trim_ascii);
-    let binary = lines.next() == Some(b"$MeshFormat")
-        && lines.next()?.split(|&b| b == b' ').nth(1) == Some(b"1");
+    let binary = lines.next() == Some(b"$MeshFormat") && lines.next()?.split(|&b| b == b' ').nth(1) == Some(b"1");
     binary.then(|| ReadError {
         part: ".msh",
         line: 2,
@@ -154,12 +146,7 @@ impl<'a> File<'a> {
 
     fn skip(&mut self, name: &str) -> Result<(), ReadError> {
         let due = format!("$End{name}");
-        while self
-            .rows
-            .expect(Element::The("end of a section"))?
-            .remainder()
-            != due
-        {}
+        while self.rows.expect(Element::The("end of a section"))?.remainder() != due {}
         Ok(())
     }
 
@@ -186,8 +173,7 @@ impl<'a> File<'a> {
                     row.float("a bound")?;
                 }
                 if row.integer("the number of physical groups")? > 0 {
-                    self.physical
-                        .insert((dimension, tag), row.integer("a physical group")?);
+                    self.physical.insert((dimension, tag), row.integer("a physical group")?);
                 }
             }
         }
@@ -219,11 +205,7 @@ impl<'a> File<'a> {
                     sum += count;
                     let mut tags = Vec::with_capacity(count);
                     for k in 0..count as u64 {
-                        tags.push(
-                            self.rows
-                                .expect(Element::Nth("tag of node", k + 1))?
-                                .integer("the tag")?,
-                        );
+                        tags.push(self.rows.expect(Element::Nth("tag of node", k + 1))?.integer("the tag")?);
                     }
                     for tag in tags {
                         // Tags are not negative, see `node`; parameters may follow the coordinates.
@@ -237,11 +219,7 @@ impl<'a> File<'a> {
         self.ids.sort_unstable();
         if let Some(pair) = self.ids.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             let node = Element::Nth("node", pair[0].0 as u64);
-            return Err(self.rows.fault(
-                node,
-                "two nodes up to this line have this tag",
-                "give every node its own",
-            ));
+            return Err(self.rows.fault(node, "two nodes up to this line have this tag", "give every node its own"));
         }
         self.section_end("Nodes")
     }
@@ -251,12 +229,9 @@ impl<'a> File<'a> {
             return Err(row.fault(format!("the tag of the node is {tag}"), "tags are positive"));
         }
         // Fewer nodes than bytes, and `count` keeps each block below 2^31; a file with more blocks is refused here.
-        let id =
-            u32::try_from(self.mesh.points.len()).map_err(|_| row.fault("too many nodes", ""))?;
+        let id = u32::try_from(self.mesh.points.len()).map_err(|_| row.fault("too many nodes", ""))?;
         self.ids.push((tag, VertexId(id)));
-        self.mesh
-            .points
-            .push(Point2::new(row.float("x")?, row.float("y")?));
+        self.mesh.points.push(Point2::new(row.float("x")?, row.float("y")?));
         self.mesh.lines.points.push(row.line);
         self.flat.z(row)
     }
@@ -283,10 +258,7 @@ impl<'a> File<'a> {
                 let mut sum = 0;
                 for b in 0..blocks as u64 {
                     let mut block = self.rows.expect(Element::Nth("block of elements", b + 1))?;
-                    let entity = (
-                        block.integer("the dimension")?,
-                        block.integer("the entity")?,
-                    );
+                    let entity = (block.integer("the dimension")?, block.integer("the entity")?);
                     let kind = block.integer("the type")?;
                     let count = block.count("the number of elements", 4, &self.rows)?;
                     sum += count;
@@ -303,32 +275,16 @@ impl<'a> File<'a> {
         self.section_end("Elements")
     }
 
-    fn element(
-        &mut self,
-        tag: i64,
-        kind: i64,
-        physical: i64,
-        mut row: Row,
-    ) -> Result<(), ReadError> {
+    fn element(&mut self, tag: i64, kind: i64, physical: i64, mut row: Row) -> Result<(), ReadError> {
         let line = row.line;
         match kind {
             1 => {
                 let corners = [self.id(&mut row)?, self.id(&mut row)?];
-                self.lines.push(Item {
-                    tag,
-                    physical,
-                    corners,
-                    line,
-                });
+                self.lines.push(Item { tag, physical, corners, line });
             }
             2 => {
                 let corners = [self.id(&mut row)?, self.id(&mut row)?, self.id(&mut row)?];
-                self.triangles.push(Item {
-                    tag,
-                    physical,
-                    corners,
-                    line,
-                });
+                self.triangles.push(Item { tag, physical, corners, line });
             }
             15 => {
                 self.id(&mut row)?;
@@ -346,22 +302,14 @@ impl<'a> File<'a> {
     fn id(&self, row: &mut Row) -> Result<VertexId, ReadError> {
         let tag = row.integer("a node")?;
         let at = self.ids.binary_search_by_key(&tag, |&(t, _)| t);
-        at.map(|i| self.ids[i].1).map_err(|_| {
-            row.fault(
-                format!("there is no node {tag}"),
-                "correct the element or add the node",
-            )
-        })
+        at.map(|i| self.ids[i].1)
+            .map_err(|_| row.fault(format!("there is no node {tag}"), "correct the element or add the node"))
     }
 
     /// The number that stands for a physical group: in its name if our writer gave it, else its tag.
     fn value(&self, dimension: i64, prefix: &str, tag: i64) -> f64 {
-        let name = self
-            .names
-            .get(&(dimension, tag))
-            .and_then(|name| name.strip_prefix(prefix));
-        name.and_then(|number| super::number::finite(number).ok())
-            .unwrap_or(tag as f64)
+        let name = self.names.get(&(dimension, tag)).and_then(|name| name.strip_prefix(prefix));
+        name.and_then(|number| super::number::finite(number).ok()).unwrap_or(tag as f64)
     }
 
     fn finish(mut self) -> ForeignMesh {
@@ -372,23 +320,16 @@ impl<'a> File<'a> {
         for item in &self.lines {
             // A float-to-integer cast saturates; physical tags and markers have 32 bits in any case.
             let marker = self.value(1, "marker ", item.physical) as i32;
-            mesh.edges.push(ForeignEdge {
-                ends: item.corners,
-                marker,
-            });
+            mesh.edges.push(ForeignEdge { ends: item.corners, marker });
             mesh.lines.edges.push(item.line);
         }
         let mesh_only = |tag| self.names.get(&(2, tag)) == Some(&"mesh");
-        let regions = self
-            .triangles
-            .iter()
-            .any(|item| item.physical != 0 && !mesh_only(item.physical));
+        let regions = self.triangles.iter().any(|item| item.physical != 0 && !mesh_only(item.physical));
         for item in &self.triangles {
             mesh.triangles.push(item.corners);
             mesh.lines.triangles.push(item.line);
             if regions {
-                mesh.triangle_attributes
-                    .push(self.value(2, "region ", item.physical));
+                mesh.triangle_attributes.push(self.value(2, "region ", item.physical));
             }
         }
         mesh

@@ -6,9 +6,7 @@ use super::error::shown;
 ///
 /// Errors: the problem as a phrase, for text that is not a decimal number and for `nan`, `inf` and what lies beyond the range of f64.
 pub(super) fn finite(text: &str) -> Result<f64, String> {
-    let decimal = text
-        .bytes()
-        .all(|b| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E'));
+    let decimal = text.bytes().all(|b| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E'));
     match text.parse::<f64>() {
         // Adding zero turns -0 into +0 and leaves every other number alone.
         Ok(x) if decimal && x.is_finite() => Ok(x + 0.0),
@@ -19,8 +17,7 @@ pub(super) fn finite(text: &str) -> Result<f64, String> {
 
 /// Parses an integer in the range of i64.
 pub(super) fn integer(text: &str) -> Result<i64, String> {
-    text.parse::<i64>()
-        .map_err(|_| format!("`{}` is not a whole number", shown(text)))
+    text.parse::<i64>().map_err(|_| format!("`{}` is not a whole number", shown(text)))
 }
 
 /// Writes the shortest decimal that reads back as the same number, without a trailing `.0`.
@@ -54,24 +51,10 @@ mod tests {
 
     #[test]
     fn floats_survive_text() {
-        for x in [
-            0.1,
-            1.0,
-            1e300,
-            1e-300,
-            5e-324,
-            -123456789.125,
-            f64::MAX,
-            0.0,
-        ] {
+        for x in [0.1, 1.0, 1e300, 1e-300, 5e-324, -123456789.125, f64::MAX, 0.0] {
             let mut out = Vec::new();
             push_float(&mut out, x);
-            assert_eq!(
-                finite(std::str::from_utf8(&out).unwrap())
-                    .unwrap()
-                    .to_bits(),
-                x.to_bits()
-            );
+            assert_eq!(finite(std::str::from_utf8(&out).unwrap()).unwrap().to_bits(), x.to_bits());
             assert!(out.len() < 26);
         }
     }

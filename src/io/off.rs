@@ -40,8 +40,7 @@ pub fn parse_off(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
     mesh.points.reserve(points);
     for k in 0..points as u64 {
         let mut row = rows.expect(Element::Nth("vertex", k))?;
-        mesh.points
-            .push(Point2::new(row.float("x")?, row.float("y")?));
+        mesh.points.push(Point2::new(row.float("x")?, row.float("y")?));
         mesh.lines.points.push(row.line);
         flat.z(&mut row)?;
         row.end()?;
@@ -51,10 +50,7 @@ pub fn parse_off(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
         let mut row = rows.expect(Element::Nth("face", k))?;
         let corners = row.integer("the number of corners")?;
         if corners != 3 {
-            return Err(row.fault(
-                format!("it has {corners} corners"),
-                "only triangles are read here",
-            ));
+            return Err(row.fault(format!("it has {corners} corners"), "only triangles are read here"));
         }
         let mut t = [VertexId(0); 3];
         for v in &mut t {

@@ -16,11 +16,7 @@ pub(super) const MOST_ELEMENTS: u64 = i32::MAX as u64;
 pub(super) fn text<'a>(part: &'static str, bytes: &'a [u8]) -> Result<&'a str, ReadError> {
     let bad = |at: usize, problem: &str, fix: &str| {
         let line = 1 + bytes[..at].iter().filter(|&&b| b == b'\n').count();
-        let column = 1 + bytes[..at]
-            .iter()
-            .rev()
-            .take_while(|&&b| b != b'\n')
-            .count();
+        let column = 1 + bytes[..at].iter().rev().take_while(|&&b| b != b'\n').count();
         Err(ReadError {
             part,
             line: clipped(line),
@@ -63,21 +59,12 @@ impl<'a> Rows<'a> {
     /// Rows of a file whose comments start with `#`.
     pub(super) fn new(part: &'static str, bytes: &'a [u8]) -> Result<Rows<'a>, ReadError> {
         let lines = text(part, bytes)?.lines();
-        Ok(Rows {
-            part,
-            lines,
-            line: 0,
-            size: bytes.len(),
-            comment: Some('#'),
-        })
+        Ok(Rows { part, lines, line: 0, size: bytes.len(), comment: Some('#') })
     }
 
     /// The same rows where nothing starts a comment.
     pub(super) fn without_comments(self) -> Rows<'a> {
-        Rows {
-            comment: None,
-            ..self
-        }
+        Rows { comment: None, ..self }
     }
 
     /// The next row, or nothing at the end of the file.
@@ -85,18 +72,9 @@ impl<'a> Rows<'a> {
         loop {
             let whole = self.lines.next()?;
             self.line = self.line.saturating_add(1);
-            let body = whole
-                .split(|c| Some(c) == self.comment)
-                .next()
-                .unwrap_or("");
+            let body = whole.split(|c| Some(c) == self.comment).next().unwrap_or("");
             if !body.trim_ascii().is_empty() {
-                return Some(Row {
-                    part: self.part,
-                    line: self.line,
-                    element,
-                    whole: body,
-                    rest: body,
-                });
+                return Some(Row { part: self.part, line: self.line, element, whole: body, rest: body });
             }
         }
     }
@@ -104,8 +82,7 @@ impl<'a> Rows<'a> {
     /// The next row; its absence is an error that says what is missing.
     pub(super) fn expect(&mut self, element: Element) -> Result<Row<'a>, ReadError> {
         let fix = "the file is truncated or declares too many elements";
-        self.next(element)
-            .ok_or_else(|| self.fault(element, "the file ends before it", fix))
+        self.next(element).ok_or_else(|| self.fault(element, "the file ends before it", fix))
     }
 
     /// An error about what stands up to the row read last.
@@ -176,18 +153,13 @@ impl<'a> Row<'a> {
     /// An error about the field read last.
     fn fault_at(&self, field: &str, problem: String, fix: &str) -> ReadError {
         let column = self.whole.len() - self.rest.len() - field.len() + 1;
-        ReadError {
-            column: clipped(column),
-            ..self.fault(problem, fix)
-        }
+        ReadError { column: clipped(column), ..self.fault(problem, fix) }
     }
 
     /// The next field, if there is one.
     pub(super) fn field(&mut self) -> Option<&'a str> {
         let rest = self.rest.trim_ascii_start();
-        let end = rest
-            .find(|c: char| c.is_ascii_whitespace())
-            .unwrap_or(rest.len());
+        let end = rest.find(|c: char| c.is_ascii_whitespace()).unwrap_or(rest.len());
         let (field, rest) = rest.split_at(end);
         self.rest = rest;
         (!field.is_empty()).then_some(field)
@@ -195,83 +167,52 @@ impl<'a> Row<'a> {
 
     /// The next field as text.
     pub(super) fn word(&mut self, name: &str) -> Result<&'a str, ReadError> {
-        self.field()
-            .ok_or_else(|| self.fault(format!("{name} is missing"), "add it to the line"))
+        self.field().ok_or_else(|| self.fault(format!("{name} is missing"), "add it to the line"))
     }
 
     /// The next field as a finite number.
     pub(super) fn float(&mut self, name: &str) -> Result<f64, ReadError> {
         let field = self.word(name)?;
         number::finite(field).map_err(|problem| {
-            self.fault_at(
-                field,
-                format!("{name}: {problem}"),
-                "write a decimal number such as -1.5e3",
-            )
+            self.fault_at(field, format!("{name}: {problem}"), "write a decimal number such as -1.5e3")
         })
     }
 
     /// The next field as an integer.
     pub(super) fn integer(&mut self, name: &str) -> Result<i64, ReadError> {
         let field = self.word(name)?;
-        number::integer(field)
-            .map_err(|problem| self.fault_at(field, format!("{name}: {problem}"), ""))
+        number::integer(field).map_err(|problem| self.fault_at(field, format!("{name}: {problem}"), ""))
     }
 
     /// The next field as a marker.
     pub(super) fn marker(&mut self) -> Result<i32, ReadError> {
         let field = self.word("marker")?;
         field.parse::<i32>().map_err(|_| {
-            self.fault_at(
-                field,
-                format!(
-                    "marker: `{}` is not a whole number of 32 bits",
-                    shown(field)
-                ),
-                "",
-            )
+            self.fault_at(field, format!("marker: `{}` is not a whole number of 32 bits", shown(field)), "")
         })
     }
 
     /// The next field as an integer in `low..=high`.
     pub(super) fn ranged(&mut self, name: &str, low: i64, high: i64) -> Result<i64, ReadError> {
         let field = self.word(name)?;
-        let n = number::integer(field)
-            .map_err(|problem| self.fault_at(field, format!("{name}: {problem}"), ""))?;
+        let n = number::integer(field).map_err(|problem| self.fault_at(field, format!("{name}: {problem}"), ""))?;
         if n < low || n > high {
-            let fix = if low == high {
-                format!("it must be {low}")
-            } else {
-                format!("it must be from {low} to {high}")
-            };
+            let fix =
+                if low == high { format!("it must be {low}") } else { format!("it must be from {low} to {high}") };
             return Err(self.fault_at(field, format!("{name} is {n}"), &fix));
         }
         Ok(n)
     }
 
     /// The next field as a number of rows that follow, each of at least `bytes` bytes with its line end: bounded by the size of the file.
-    pub(super) fn count(
-        &mut self,
-        name: &str,
-        bytes: usize,
-        rows: &Rows,
-    ) -> Result<usize, ReadError> {
+    pub(super) fn count(&mut self, name: &str, bytes: usize, rows: &Rows) -> Result<usize, ReadError> {
         let field = self.word(name)?;
-        let n = number::integer(field)
-            .map_err(|problem| self.fault_at(field, format!("{name}: {problem}"), ""))?;
+        let n = number::integer(field).map_err(|problem| self.fault_at(field, format!("{name}: {problem}"), ""))?;
         let Ok(count) = u64::try_from(n) else {
-            return Err(self.fault_at(
-                field,
-                format!("{name} is {n}"),
-                "a count cannot be negative",
-            ));
+            return Err(self.fault_at(field, format!("{name} is {n}"), "a count cannot be negative"));
         };
         if count > MOST_ELEMENTS {
-            return Err(self.fault_at(
-                field,
-                format!("{name} is {n}"),
-                &format!("the limit is {MOST_ELEMENTS}"),
-            ));
+            return Err(self.fault_at(field, format!("{name} is {n}"), &format!("the limit is {MOST_ELEMENTS}")));
         }
         // The last line may lack its end. Counts are below 2^31 here, so nothing overflows.
         if count.saturating_mul(bytes as u64) > rows.size as u64 + 1 {

@@ -45,25 +45,16 @@ impl Nodes {
             let mut probe = head;
             let dimension = probe.integer("the dimension")?;
             if dimension != 2 {
-                return Err(head.fault(
-                    format!("the dimension is {dimension}"),
-                    "only planar files (dimension 2) are read here",
-                ));
+                return Err(head
+                    .fault(format!("the dimension is {dimension}"), "only planar files (dimension 2) are read here"));
             }
             head = probe;
         }
-        let per_point = if head.has_more() {
-            head.ranged("the number of attributes", 0, MOST_ATTRIBUTES)? as usize
-        } else {
-            0
-        };
+        let per_point =
+            if head.has_more() { head.ranged("the number of attributes", 0, MOST_ATTRIBUTES)? as usize } else { 0 };
         let marked = head.has_more() && head.ranged("the number of boundary markers", 0, 1)? == 1;
         head.end()?;
-        let mut nodes = Nodes {
-            attributes_per_point: per_point,
-            header: line,
-            ..Nodes::default()
-        };
+        let mut nodes = Nodes { attributes_per_point: per_point, header: line, ..Nodes::default() };
         nodes.points.reserve(count);
         for k in 0..count as i64 {
             let mut row = rows.expect(Element::Nth("vertex", (k + nodes.first) as u64))?;
@@ -111,10 +102,7 @@ fn point(row: &mut Row) -> Result<Point2, ReadError> {
 
 /// Whether a `.poly` file leaves its vertices to the `.node` file of the same name. False if the file is too damaged to tell.
 pub fn poly_wants_node(poly: &[u8]) -> bool {
-    let first = |rows: &mut Rows| {
-        rows.next(Element::The("header"))
-            .and_then(|mut row| row.integer("count").ok())
-    };
+    let first = |rows: &mut Rows| rows.next(Element::The("header")).and_then(|mut row| row.integer("count").ok());
     Rows::new(".poly", poly).is_ok_and(|mut rows| first(&mut rows) == Some(0))
 }
 
@@ -131,7 +119,9 @@ pub fn parse_poly(poly: &[u8], node: Option<&[u8]>) -> Result<Input, ReadError> 
                 part: ".poly",
                 line: nodes.header,
                 element: "header of the vertices".into(),
-                problem: "it declares 0 vertices, so they should stand in a .node file of the same name, and there is none".into(),
+                problem:
+                    "it declares 0 vertices, so they should stand in a .node file of the same name, and there is none"
+                        .into(),
                 fix: "add that file, or put the vertices here".into(),
                 ..ReadError::default()
             });
@@ -163,16 +153,9 @@ fn segments(rows: &mut Rows, nodes: &Nodes, input: &mut Input) -> Result<(), Rea
     for k in 0..count as u64 {
         let mut row = rows.expect(Element::Nth("segment", k + 1))?;
         row.integer("the number of the segment")?;
-        let ends = [
-            nodes.id(&mut row, "the first end")?,
-            nodes.id(&mut row, "the second end")?,
-        ];
+        let ends = [nodes.id(&mut row, "the first end")?, nodes.id(&mut row, "the second end")?];
         let marker = if marked { row.marker()? } else { 0 };
-        input.pslg.segments.push(Segment {
-            ends,
-            marker,
-            toggles: false,
-        });
+        input.pslg.segments.push(Segment { ends, marker, toggles: false });
         input.lines.segments.push(row.line);
         row.end()?;
     }
@@ -204,29 +187,21 @@ fn regions(rows: &mut Rows, input: &mut Input) -> Result<(), ReadError> {
         row.integer("the number of the region")?;
         let seed = point(&mut row)?;
         let attribute = row.float("the attribute")?;
-        let area = if row.has_more() {
-            Some(row.float("the largest area")?)
-        } else {
-            None
-        };
+        let area = if row.has_more() { Some(row.float("the largest area")?) } else { None };
         if area.is_none() {
             input.notes.push(Note {
                 kind: NoteKind::Note,
                 line: row.line,
-                text: format!("region {} bounds no area; Triangle would take its attribute {attribute} for the bound too", k + 1),
+                text: format!(
+                    "region {} bounds no area; Triangle would take its attribute {attribute} for the bound too",
+                    k + 1
+                ),
             });
         }
         if area == Some(0.0) {
-            return Err(row.fault(
-                "the largest area is 0",
-                "give a positive area, or a negative one for none",
-            ));
+            return Err(row.fault("the largest area is 0", "give a positive area, or a negative one for none"));
         }
-        input.pslg.regions.push(Region {
-            seed,
-            attribute,
-            max_area: area.filter(|a| a.is_sign_positive()),
-        });
+        input.pslg.regions.push(Region { seed, attribute, max_area: area.filter(|a| a.is_sign_positive()) });
         input.lines.regions.push(row.line);
         row.end()?;
     }
@@ -293,16 +268,9 @@ fn triangles(ele: &[u8], nodes: &Nodes, mesh: &mut ForeignMesh) -> Result<(), Re
     // `1 1 2 3` and a line end.
     let count = head.count("the number of triangles", 8, &rows)?;
     if head.has_more() && head.ranged("the number of corners", 3, 6)? != 3 {
-        return Err(head.fault(
-            "the triangles have more than 3 nodes",
-            "write the mesh with linear elements",
-        ));
+        return Err(head.fault("the triangles have more than 3 nodes", "write the mesh with linear elements"));
     }
-    let per_triangle = if head.has_more() {
-        head.ranged("the number of attributes", 0, MOST_ATTRIBUTES)?
-    } else {
-        0
-    };
+    let per_triangle = if head.has_more() { head.ranged("the number of attributes", 0, MOST_ATTRIBUTES)? } else { 0 };
     if per_triangle > 1 {
         mesh.notes.push(Note {
             kind: NoteKind::Note,
@@ -316,11 +284,7 @@ fn triangles(ele: &[u8], nodes: &Nodes, mesh: &mut ForeignMesh) -> Result<(), Re
         let mut row = rows.expect(Element::Nth("triangle", k + 1))?;
         row.integer("the number of the triangle")?;
         let name = "a corner";
-        mesh.triangles.push([
-            nodes.id(&mut row, name)?,
-            nodes.id(&mut row, name)?,
-            nodes.id(&mut row, name)?,
-        ]);
+        mesh.triangles.push([nodes.id(&mut row, name)?, nodes.id(&mut row, name)?, nodes.id(&mut row, name)?]);
         for i in 0..per_triangle {
             let attribute = row.float("an attribute")?;
             if i == 0 {
@@ -342,15 +306,7 @@ fn subsegments(poly: &[u8], nodes: &Nodes, mesh: &mut ForeignMesh) -> Result<(),
     holes(&mut rows, &mut input)?;
     regions(&mut rows, &mut input)?;
     rows.end("section")?;
-    mesh.edges = input
-        .pslg
-        .segments
-        .iter()
-        .map(|s| ForeignEdge {
-            ends: s.ends,
-            marker: s.marker,
-        })
-        .collect();
+    mesh.edges = input.pslg.segments.iter().map(|s| ForeignEdge { ends: s.ends, marker: s.marker }).collect();
     mesh.lines.edges = input.lines.segments;
     Ok(())
 }
@@ -364,10 +320,7 @@ fn edges(edge: &[u8], nodes: &Nodes, mesh: &mut ForeignMesh) -> Result<(), ReadE
     for k in 0..count as u64 {
         let mut row = rows.expect(Element::Nth("edge", k + 1))?;
         row.integer("the number of the edge")?;
-        let ends = [
-            nodes.id(&mut row, "the first end")?,
-            nodes.id(&mut row, "the second end")?,
-        ];
+        let ends = [nodes.id(&mut row, "the first end")?, nodes.id(&mut row, "the second end")?];
         let marker = if marked { row.marker()? } else { 0 };
         if marker != 0 {
             mesh.edges.push(ForeignEdge { ends, marker });

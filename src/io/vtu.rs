@@ -57,10 +57,7 @@ impl<'a> File<'a> {
         };
         if root.get("type") != Some("UnstructuredGrid") {
             return Err(root.fault(
-                format!(
-                    "the type is {}",
-                    shown(root.get("type").unwrap_or("missing"))
-                ),
+                format!("the type is {}", shown(root.get("type").unwrap_or("missing"))),
                 "only UnstructuredGrid is read here",
             ));
         }
@@ -79,13 +76,9 @@ impl<'a> File<'a> {
                     return Err(tag.fault("a second piece", "merge the pieces into one"));
                 }
                 ("Piece", TagKind::Open | TagKind::Empty) => piece = Some(tag),
-                ("PointData" | "CellData" | "Points" | "Cells", TagKind::Open) => {
-                    section = tag.name
-                }
+                ("PointData" | "CellData" | "Points" | "Cells", TagKind::Open) => section = tag.name,
                 ("PointData" | "CellData" | "Points" | "Cells", _) => section = "",
-                ("DataArray", TagKind::Open | TagKind::Empty) if !section.is_empty() => {
-                    arrays.push((section, tag))
-                }
+                ("DataArray", TagKind::Open | TagKind::Empty) if !section.is_empty() => arrays.push((section, tag)),
                 _ => {}
             }
         }
@@ -93,16 +86,12 @@ impl<'a> File<'a> {
             return Err(root.fault("it holds no piece", "the file is truncated"));
         };
         let count = |name: &str| {
-            let n = piece
-                .get(name)
-                .and_then(|n| n.trim_ascii().parse::<u64>().ok());
-            n.filter(|&n| n <= MOST_ELEMENTS)
-                .map(|n| n as usize)
-                .ok_or_else(|| {
-                    let said = piece.get(name).map_or("missing".into(), shown);
-                    let fix = format!("it must be a whole number of at most {MOST_ELEMENTS}");
-                    piece.fault(format!("{name} is {said}"), &fix)
-                })
+            let n = piece.get(name).and_then(|n| n.trim_ascii().parse::<u64>().ok());
+            n.filter(|&n| n <= MOST_ELEMENTS).map(|n| n as usize).ok_or_else(|| {
+                let said = piece.get(name).map_or("missing".into(), shown);
+                let fix = format!("it must be a whole number of at most {MOST_ELEMENTS}");
+                piece.fault(format!("{name} is {said}"), &fix)
+            })
         };
         Ok(File {
             size: bytes.len(),
@@ -124,42 +113,22 @@ impl<'a> File<'a> {
     }
 
     /// The values of an array that must be there, `per` for each of `count` items; any number of them if `count` is not given.
-    fn values(
-        &self,
-        section: &str,
-        name: &str,
-        per: usize,
-        count: Option<usize>,
-    ) -> Result<Vec<Value>, ReadError> {
-        let missing = || {
-            self.piece.fault(
-                format!("the array {section} {name} is missing"),
-                "the file is truncated or no mesh",
-            )
-        };
+    fn values(&self, section: &str, name: &str, per: usize, count: Option<usize>) -> Result<Vec<Value>, ReadError> {
+        let missing =
+            || self.piece.fault(format!("the array {section} {name} is missing"), "the file is truncated or no mesh");
         let tag = self.array(section, name).ok_or_else(missing)?;
         self.decode(tag, per, count)
     }
 
     /// The values of an array that may be missing.
-    fn perhaps(
-        &self,
-        section: &str,
-        name: &str,
-        count: usize,
-    ) -> Result<Option<Vec<Value>>, ReadError> {
-        self.array(section, name)
-            .map(|tag| self.decode(tag, 1, Some(count)))
-            .transpose()
+    fn perhaps(&self, section: &str, name: &str, count: usize) -> Result<Option<Vec<Value>>, ReadError> {
+        self.array(section, name).map(|tag| self.decode(tag, 1, Some(count))).transpose()
     }
 
     fn decode(&self, tag: &Tag, per: usize, count: Option<usize>) -> Result<Vec<Value>, ReadError> {
         let components = tag.get("NumberOfComponents").unwrap_or("1");
         if components != per.to_string() {
-            return Err(tag.fault(
-                format!("NumberOfComponents is {}", shown(components)),
-                &format!("it must be {per}"),
-            ));
+            return Err(tag.fault(format!("NumberOfComponents is {}", shown(components)), &format!("it must be {per}")));
         }
         let values = match tag.get("format").unwrap_or("ascii") {
             "ascii" => ascii(tag)?,
@@ -167,9 +136,7 @@ impl<'a> File<'a> {
             "appended" => {
                 let missing = || tag.fault("its appended data is missing", "the file is truncated");
                 let (encoding, data) = self.appended.ok_or_else(missing)?;
-                let offset = tag
-                    .get("offset")
-                    .and_then(|o| o.trim_ascii().parse::<usize>().ok());
+                let offset = tag.get("offset").and_then(|o| o.trim_ascii().parse::<usize>().ok());
                 let data = offset.and_then(|o| data.get(o..)).ok_or_else(missing)?;
                 match encoding {
                     "raw" => self.binary(tag, data)?,
@@ -177,17 +144,15 @@ impl<'a> File<'a> {
                 }
             }
             other => {
-                return Err(tag.fault(
-                    format!("the format is {}", shown(other)),
-                    "ascii, binary and appended are read here",
-                ));
+                return Err(
+                    tag.fault(format!("the format is {}", shown(other)), "ascii, binary and appended are read here")
+                );
             }
         };
         match count.map(|n| n * per) {
-            Some(due) if due != values.len() => Err(tag.fault(
-                format!("it has {} numbers instead of {due}", values.len()),
-                "the file is damaged",
-            )),
+            Some(due) if due != values.len() => {
+                Err(tag.fault(format!("it has {} numbers instead of {due}", values.len()), "the file is damaged"))
+            }
             _ => Ok(values),
         }
     }
@@ -228,10 +193,7 @@ impl<'a> File<'a> {
                 _ => bits as f64,
             }
         };
-        let values: Vec<Value> = data
-            .chunks_exact(size)
-            .map(|item| (number(item) + 0.0, 0))
-            .collect();
+        let values: Vec<Value> = data.chunks_exact(size).map(|item| (number(item) + 0.0, 0)).collect();
         match values.iter().position(|(x, _)| !x.is_finite()) {
             Some(i) => Err(tag.fault(format!("number {} is not finite", i + 1), "")),
             None => Ok(values),
@@ -242,11 +204,7 @@ impl<'a> File<'a> {
 /// An unsigned integer of up to 8 bytes.
 fn whole(bytes: &[u8], big_endian: bool) -> u64 {
     let push = |n: u64, &b: &u8| n << 8 | u64::from(b);
-    if big_endian {
-        bytes.iter().fold(0, push)
-    } else {
-        bytes.iter().rev().fold(0, push)
-    }
+    if big_endian { bytes.iter().fold(0, push) } else { bytes.iter().rev().fold(0, push) }
 }
 
 fn appended(tail: &[u8]) -> Result<Option<(&'static str, &[u8])>, ReadError> {
@@ -254,12 +212,7 @@ fn appended(tail: &[u8]) -> Result<Option<(&'static str, &[u8])>, ReadError> {
         return Ok(None);
     }
     let bad = |problem: &str| {
-        Err(ReadError {
-            part: ".vtu",
-            element: "AppendedData".into(),
-            problem: problem.into(),
-            ..ReadError::default()
-        })
+        Err(ReadError { part: ".vtu", element: "AppendedData".into(), problem: problem.into(), ..ReadError::default() })
     };
     let Some(end) = tail.iter().position(|&b| b == b'>') else {
         return bad("the file ends within the tag");
@@ -280,23 +233,11 @@ fn appended(tail: &[u8]) -> Result<Option<(&'static str, &[u8])>, ReadError> {
 }
 
 /// Decodes one block: first so much that its length is known, then all of it. White space may stand before it.
-fn from_base64(
-    tag: &Tag,
-    text: &[u8],
-    header: usize,
-    big_endian: bool,
-) -> Result<Vec<u8>, ReadError> {
+fn from_base64(tag: &Tag, text: &[u8], header: usize, big_endian: bool) -> Result<Vec<u8>, ReadError> {
     let text = text.trim_ascii_start();
-    let bad = || {
-        tag.fault(
-            "its base64 data is damaged or ends early",
-            "the file is truncated",
-        )
-    };
+    let bad = || tag.fault("its base64 data is damaged or ends early", "the file is truncated");
     let prefix = base64(text, header).ok_or_else(bad)?;
-    let length = usize::try_from(whole(&prefix, big_endian))
-        .ok()
-        .and_then(|n| n.checked_add(header));
+    let length = usize::try_from(whole(&prefix, big_endian)).ok().and_then(|n| n.checked_add(header));
     // Four characters hold three bytes, so that a longer block cannot be here.
     let length = length.filter(|&n| n <= text.len()).ok_or_else(bad)?;
     base64(text, length).ok_or_else(bad)
@@ -334,10 +275,7 @@ fn ascii(tag: &Tag) -> Result<Vec<Value>, ReadError> {
     for (line, row) in tag.text.split('\n').enumerate() {
         let line = tag.text_line.saturating_add(clipped(line));
         for field in row.split_ascii_whitespace() {
-            let x = number::finite(field).map_err(|problem| ReadError {
-                line,
-                ..tag.fault(problem, "")
-            })?;
+            let x = number::finite(field).map_err(|problem| ReadError { line, ..tag.fault(problem, "") })?;
             values.push((x, line));
         }
     }
@@ -346,24 +284,13 @@ fn ascii(tag: &Tag) -> Result<Vec<Value>, ReadError> {
 
 fn points(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
     let mut flat = Flat::default();
-    for (k, p) in file
-        .values("Points", "", 3, Some(file.points))?
-        .chunks_exact(3)
-        .enumerate()
-    {
+    for (k, p) in file.values("Points", "", 3, Some(file.points))?.chunks_exact(3).enumerate() {
         let &[(x, line), (y, _), (z, _)] = p else {
             continue;
         };
         flat.check(z, line).map_err(|problem| {
             let element = format!("vertex {k}");
-            ReadError {
-                part: ".vtu",
-                line,
-                element,
-                problem,
-                fix: FIX.into(),
-                ..ReadError::default()
-            }
+            ReadError { part: ".vtu", line, element, problem, fix: FIX.into(), ..ReadError::default() }
         })?;
         mesh.points.push(Point2::new(x, y));
         mesh.lines.points.push(line);
@@ -373,23 +300,15 @@ fn points(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
         mesh.point_markers = markers.into_iter().map(|(x, _)| x as i32).collect();
     }
     let mut columns = Vec::new();
-    while let Some(column) = file.perhaps(
-        "PointData",
-        &format!("attribute_{}", columns.len()),
-        file.points,
-    )? {
+    while let Some(column) = file.perhaps("PointData", &format!("attribute_{}", columns.len()), file.points)? {
         columns.push(column);
         // Honest columns take a byte a number; appended ones could all name the same bytes.
         if columns.len().saturating_mul(file.points) > file.size {
-            return Err(file
-                .piece
-                .fault("the attributes are more than the file can hold", ""));
+            return Err(file.piece.fault("the attributes are more than the file can hold", ""));
         }
     }
     mesh.attributes_per_point = columns.len();
-    mesh.attributes = (0..file.points)
-        .flat_map(|i| columns.iter().map(move |c| c[i].0))
-        .collect();
+    mesh.attributes = (0..file.points).flat_map(|i| columns.iter().map(move |c| c[i].0)).collect();
     Ok(())
 }
 
@@ -398,9 +317,7 @@ fn cells(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
     let offsets = file.values("Cells", "offsets", 1, Some(file.cells))?;
     let types = file.values("Cells", "types", 1, Some(file.cells))?;
     let physical = file.perhaps("CellData", "gmsh:physical", file.cells)?;
-    let markers = file
-        .perhaps("CellData", "marker", file.cells)?
-        .or_else(|| physical.clone());
+    let markers = file.perhaps("CellData", "marker", file.cells)?.or_else(|| physical.clone());
     let regions = file.perhaps("CellData", "region", file.cells)?.or(physical);
     let of = |values: &Option<Vec<Value>>, cell: usize| values.as_ref().map(|v| v[cell].0);
     let mut from = 0;
@@ -408,14 +325,7 @@ fn cells(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
         let bad = |problem: String, fix: &str| {
             let line = connectivity.get(from).map_or(0, |&(_, line)| line);
             let element = format!("cell {cell}");
-            ReadError {
-                part: ".vtu",
-                line,
-                element,
-                problem,
-                fix: fix.into(),
-                ..ReadError::default()
-            }
+            ReadError { part: ".vtu", line, element, problem, fix: fix.into(), ..ReadError::default() }
         };
         let end = index(offsets[cell].0, connectivity.len() + 1).filter(|&end| end >= from);
         let Some(end) = end else {
@@ -429,10 +339,7 @@ fn cells(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
             let id = index(x, file.points);
             let id = id.ok_or_else(|| ReadError {
                 line,
-                ..bad(
-                    format!("there is no vertex {x:?}"),
-                    "vertices are numbered from 0",
-                )
+                ..bad(format!("there is no vertex {x:?}"), "vertices are numbered from 0")
             })?;
             // Counts are below 2^31.
             corners.push(VertexId(id as u32));
@@ -445,19 +352,13 @@ fn cells(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
                 mesh.triangle_attributes.extend(of(&regions, cell));
             }
             (3, &[a, b]) => {
-                mesh.edges.push(ForeignEdge {
-                    ends: [a, b],
-                    marker: of(&markers, cell).map_or(0, |x| x as i32),
-                });
+                mesh.edges.push(ForeignEdge { ends: [a, b], marker: of(&markers, cell).map_or(0, |x| x as i32) });
                 mesh.lines.edges.push(line);
             }
             (1, [_]) => {}
             (kind, _) => {
                 let problem = format!("its type is {kind} and it has {} corners", end - from);
-                return Err(bad(
-                    problem,
-                    "only vertices (1), lines (3) and triangles (5) are read here",
-                ));
+                return Err(bad(problem, "only vertices (1), lines (3) and triangles (5) are read here"));
             }
         }
         from = end;

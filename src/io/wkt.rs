@@ -19,11 +19,7 @@ const ROUND: (u8, u8) = (b'(', b')');
 /// Errors: the first fault. A file without a geometry is one.
 pub fn parse_wkt(bytes: &[u8]) -> Result<Input, ReadError> {
     let text = text_of_chains("WKT", bytes)?;
-    let mut reader = Reader {
-        at: Cursor::new("WKT", text, 0),
-        chains: Chains::default(),
-        count: 0,
-    };
+    let mut reader = Reader { at: Cursor::new("WKT", text, 0), chains: Chains::default(), count: 0 };
     let mut notes = Vec::new();
     loop {
         geometry(&mut reader, 0, &mut notes)?;
@@ -60,16 +56,10 @@ fn geometry(r: &mut Reader, depth: u32, notes: &mut Vec<Note>) -> Result<(), Rea
         word = r.at.run(|b| b.is_ascii_alphabetic()).to_ascii_uppercase();
     }
     r.count = r.count.saturating_add(1);
-    let base = ["ZM", "Z", "M"]
-        .iter()
-        .find_map(|s| word.strip_suffix(s))
-        .filter(|w| NAMES.contains(w));
+    let base = ["ZM", "Z", "M"].iter().find_map(|s| word.strip_suffix(s)).filter(|w| NAMES.contains(w));
     let name = base.unwrap_or(&word);
     let Some(&name) = NAMES.iter().find(|&&n| n == name) else {
-        return Err(ReadError {
-            fix: format!("the geometries read here are {}", NAMES.join(", ")),
-            ..start
-        });
+        return Err(ReadError { fix: format!("the geometries read here are {}", NAMES.join(", ")), ..start });
     };
     r.at.element = format!("geometry {}, {name}", r.count);
     if r.at.peek() != Some(b'(') {
@@ -81,24 +71,15 @@ fn geometry(r: &mut Reader, depth: u32, notes: &mut Vec<Note>) -> Result<(), Rea
             "EMPTY" => return Ok(()),
             "" => {}
             other => {
-                return Err(r
-                    .at
-                    .fault(format!("`{other}` stands where `(` or EMPTY is due"), ""));
+                return Err(r.at.fault(format!("`{other}` stands where `(` or EMPTY is due"), ""));
             }
         }
     }
     body(r, name, depth, notes)
 }
 
-const NAMES: [&str; 7] = [
-    "POINT",
-    "LINESTRING",
-    "POLYGON",
-    "MULTIPOINT",
-    "MULTILINESTRING",
-    "MULTIPOLYGON",
-    "GEOMETRYCOLLECTION",
-];
+const NAMES: [&str; 7] =
+    ["POINT", "LINESTRING", "POLYGON", "MULTIPOINT", "MULTILINESTRING", "MULTIPOLYGON", "GEOMETRYCOLLECTION"];
 
 fn body(r: &mut Reader, name: &str, depth: u32, notes: &mut Vec<Note>) -> Result<(), ReadError> {
     let Reader { at, chains, .. } = r;
@@ -108,25 +89,15 @@ fn body(r: &mut Reader, name: &str, depth: u32, notes: &mut Vec<Note>) -> Result
             let nested = name == "MULTIPOINT" && at.take(b'(');
             let position = position(at, chains)?;
             chains.point(position);
-            if nested {
-                at.expect(b')', "`)`")
-            } else {
-                Ok(())
-            }
+            if nested { at.expect(b')', "`)`") } else { Ok(()) }
         }),
         "LINESTRING" => chain(at, chains, Chain::Line),
         "MULTILINESTRING" => at.list(ROUND, |at| chain(at, chains, Chain::Line)),
         "POLYGON" => at.list(ROUND, |at| chain(at, chains, Chain::Ring)),
-        "MULTIPOLYGON" => at.list(ROUND, |at| {
-            if empty(at)? {
-                Ok(())
-            } else {
-                at.list(ROUND, |at| chain(at, chains, Chain::Ring))
-            }
-        }),
-        _ if depth == DEEPEST => {
-            Err(at.fault("the collections are nested too deeply", "flatten them"))
+        "MULTIPOLYGON" => {
+            at.list(ROUND, |at| if empty(at)? { Ok(()) } else { at.list(ROUND, |at| chain(at, chains, Chain::Ring)) })
         }
+        _ if depth == DEEPEST => Err(at.fault("the collections are nested too deeply", "flatten them")),
         _ => {
             at.expect(b'(', "`(`")?;
             loop {
@@ -145,11 +116,7 @@ fn empty(at: &mut Cursor) -> Result<bool, ReadError> {
         return Ok(false);
     }
     let word = at.run(|b| b.is_ascii_alphabetic());
-    if word.eq_ignore_ascii_case("EMPTY") {
-        Ok(true)
-    } else {
-        Err(at.wanted("`(` or EMPTY"))
-    }
+    if word.eq_ignore_ascii_case("EMPTY") { Ok(true) } else { Err(at.wanted("`(` or EMPTY")) }
 }
 
 fn chain(at: &mut Cursor, chains: &mut Chains, kind: Chain) -> Result<(), ReadError> {
@@ -167,20 +134,15 @@ fn chain(at: &mut Cursor, chains: &mut Chains, kind: Chain) -> Result<(), ReadEr
 }
 
 /// That a chain has the number of positions that its kind needs and that a ring is closed; else problem and fix.
-pub(super) fn check_chain(
-    positions: &[Position],
-    kind: Chain,
-) -> Result<(), (&'static str, &'static str)> {
+pub(super) fn check_chain(positions: &[Position], kind: Chain) -> Result<(), (&'static str, &'static str)> {
     match (kind, positions) {
-        (Chain::Line, [] | [_]) => Err((
-            "the polyline that ends here has fewer than 2 positions",
-            "give it at least 2",
-        )),
+        (Chain::Line, [] | [_]) => {
+            Err(("the polyline that ends here has fewer than 2 positions", "give it at least 2"))
+        }
         (Chain::Line, _) => Ok(()),
-        (Chain::Ring, [first, .., last]) if !same(first.point, last.point) => Err((
-            "the ring that ends here is not closed",
-            "repeat its first position at its end",
-        )),
+        (Chain::Ring, [first, .., last]) if !same(first.point, last.point) => {
+            Err(("the ring that ends here is not closed", "repeat its first position at its end"))
+        }
         (Chain::Ring, _) if positions.len() < 4 => Err((
             "the ring that ends here has fewer than 4 positions",
             "give it at least 3 corners and repeat the first",

@@ -34,10 +34,7 @@ pub(super) enum TagKind {
 impl<'a> Tag<'a> {
     /// The value of an attribute.
     pub(super) fn get(&self, name: &str) -> Option<&'a str> {
-        self.attributes
-            .iter()
-            .find(|(n, _)| *n == name)
-            .map(|&(_, value)| value)
+        self.attributes.iter().find(|(n, _)| *n == name).map(|&(_, value)| value)
     }
 
     /// An error about the tag.
@@ -46,14 +43,7 @@ impl<'a> Tag<'a> {
             Some(name) => format!("{} \"{}\"", self.name, shown(name)),
             None => self.name.into(),
         };
-        ReadError {
-            part: ".vtu",
-            line: self.line,
-            column: 0,
-            element,
-            problem: problem.into(),
-            fix: fix.into(),
-        }
+        ReadError { part: ".vtu", line: self.line, column: 0, element, problem: problem.into(), fix: fix.into() }
     }
 }
 
@@ -65,10 +55,7 @@ pub(super) struct Tags<'a> {
 
 impl<'a> Tags<'a> {
     pub(super) fn new(text: &'a str) -> Tags<'a> {
-        Tags {
-            rest: text,
-            line: 1,
-        }
+        Tags { rest: text, line: 1 }
     }
 
     /// Goes forward by a number of bytes that ends between characters.
@@ -102,10 +89,7 @@ impl<'a> Tags<'a> {
             let skipped = if self.rest.starts_with("<!--") {
                 Some("-->")
             } else {
-                ["<?", "<!"]
-                    .iter()
-                    .any(|s| self.rest.starts_with(s))
-                    .then_some(">")
+                ["<?", "<!"].iter().any(|s| self.rest.starts_with(s)).then_some(">")
             };
             let Some(close) = skipped else { break };
             let Some(end) = self.rest.find(close) else {
@@ -123,9 +107,7 @@ impl<'a> Tags<'a> {
             (_, Some(inner)) => (TagKind::Empty, inner),
             _ => (TagKind::Open, inner),
         };
-        let name_end = inner
-            .find(|c: char| c.is_ascii_whitespace())
-            .unwrap_or(inner.len());
+        let name_end = inner.find(|c: char| c.is_ascii_whitespace()).unwrap_or(inner.len());
         let (name, attributes) = inner.split_at(name_end);
         let attributes = self.attributes(attributes)?;
         self.advance(end + 1);
@@ -135,14 +117,7 @@ impl<'a> Tags<'a> {
         if text_end < self.rest.len() {
             self.advance(text_end);
         }
-        Ok(Some(Tag {
-            name,
-            attributes,
-            kind,
-            line,
-            text,
-            text_line,
-        }))
+        Ok(Some(Tag { name, attributes, kind, line, text, text_line }))
     }
 
     fn attributes(&self, mut rest: &'a str) -> Result<Vec<(&'a str, &'a str)>, ReadError> {

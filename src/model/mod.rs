@@ -11,8 +11,7 @@ mod simplex;
 pub use ids::{SegmentId, VertexId};
 pub use mesh::{Mesh2, MeshEdge, VertexKind};
 pub use parameters::{
-    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Level, QueueOrder, SmallAngles,
-    VertexOfTriangle,
+    Choice, DeletionPolicy, DiskChoice, GcdrParameters, Level, QueueOrder, SmallAngles, VertexOfTriangle,
 };
 pub use point::Point2;
 pub use pslg::{Fill, Lines, Pslg, Region, Segment};

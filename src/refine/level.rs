@@ -13,18 +13,8 @@ pub(super) type Sector = [Point2; 3];
 pub(super) fn sectors_of<K: Kernel>(cdt: &Cdt2<K>) -> Vec<Sector> {
     let apexes = (0..cdt.vertex_count() as u32).map(VertexId);
     apexes
-        .flat_map(|v| {
-            convex_sectors(cdt, v)
-                .into_iter()
-                .map(move |pair| (v, pair))
-        })
-        .map(|(v, [a, b])| {
-            [
-                cdt.point(v),
-                cdt.point(cdt.destination(a)),
-                cdt.point(cdt.origin(b)),
-            ]
-        })
+        .flat_map(|v| convex_sectors(cdt, v).into_iter().map(move |pair| (v, pair)))
+        .map(|(v, [a, b])| [cdt.point(v), cdt.point(cdt.destination(a)), cdt.point(cdt.origin(b))])
         .collect()
 }
 
@@ -37,11 +27,7 @@ pub(super) fn level_of(params: &GcdrParameters, sectors: &[Sector]) -> Level {
     if by_parameters == Level::Outside {
         return Level::Outside;
     }
-    let angles = sectors
-        .iter()
-        .map(|s| level_of_angle(params.mu, *s))
-        .min()
-        .unwrap_or(Level::Graded);
+    let angles = sectors.iter().map(|s| level_of_angle(params.mu, *s)).min().unwrap_or(Level::Graded);
     by_parameters.min(angles)
 }
 
@@ -100,11 +86,7 @@ pub fn least_d2(rho2: f64, level: Level) -> Option<f64> {
     let (mut low, mut high) = (0u64, 1.0f64.to_bits());
     while high - low > 1 {
         let middle = low + (high - low) / 2;
-        if reaches(f64::from_bits(middle)) {
-            high = middle
-        } else {
-            low = middle
-        }
+        if reaches(f64::from_bits(middle)) { high = middle } else { low = middle }
     }
     Some(f64::from_bits(high))
 }

@@ -19,12 +19,7 @@ pub struct Options<'a> {
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Options {
-            chooser: None,
-            size: None,
-            max_steps: 10_000_000,
-            stop: None,
-        }
+        Options { chooser: None, size: None, max_steps: 10_000_000, stop: None }
     }
 }
 

@@ -17,27 +17,12 @@ pub fn triangulate<K: Kernel>(pslg: &Pslg, sink: &mut dyn Sink) -> Result<Run, R
     let segments: Vec<_> = pslg.segments.iter().map(|s| s.ends).collect();
     cdt.constrain(&segments)?;
     let start = canonical_triangles(&cdt);
-    sink.record(&Record::Header(Header {
-        algorithm: Algorithm::Delaunay,
-        level: None,
-        fill: pslg.fill,
-    }))?;
+    sink.record(&Record::Header(Header { algorithm: Algorithm::Delaunay, level: None, fill: pslg.fill }))?;
     write_domain(pslg, &start, sink)?;
-    let unlabelled = Pslg {
-        regions: Vec::new(),
-        ..pslg.clone()
-    };
-    let (mesh, _) = mesh_of(
-        &cdt,
-        scale,
-        &vec![VertexKind::Input; cdt.vertex_count()],
-        &unlabelled,
-    );
-    let counts = Counts {
-        vertices: mesh.points.len() as u32,
-        triangles: mesh.triangles.len() as u32,
-        ..Counts::default()
-    };
+    let unlabelled = Pslg { regions: Vec::new(), ..pslg.clone() };
+    let (mesh, _) = mesh_of(&cdt, scale, &vec![VertexKind::Input; cdt.vertex_count()], &unlabelled);
+    let counts =
+        Counts { vertices: mesh.points.len() as u32, triangles: mesh.triangles.len() as u32, ..Counts::default() };
     sink.record(&Record::End(End {
         outcome: Outcome::Complete,
         stop_reason: None,

@@ -49,11 +49,7 @@ pub fn figure_7_1() -> Result<Figure, RunError> {
     let mut meshes = Vec::new();
     let mut svg = String::new();
     draw_input(&mut svg);
-    for order in [
-        QueueOrder::Fifo,
-        QueueOrder::WorstFirst,
-        QueueOrder::ShortestEdge,
-    ] {
+    for order in [QueueOrder::Fifo, QueueOrder::WorstFirst, QueueOrder::ShortestEdge] {
         let measured = measure(&parameters(1.0, [1.0; 3], Experiment::Center, order))?;
         let run = &measured.run;
         meshes.push(Panel {
@@ -73,11 +69,7 @@ pub fn figure_7_1() -> Result<Figure, RunError> {
          {svg}</svg>\n",
         10 * width
     );
-    Ok(Figure {
-        published_triangles: FIGURE_TRIANGLES,
-        meshes,
-        svg,
-    })
+    Ok(Figure { published_triangles: FIGURE_TRIANGLES, meshes, svg })
 }
 
 /// The smallest angle of a mesh in degrees, for display.
@@ -134,12 +126,7 @@ fn draw(svg: &mut String, panel: usize, mesh: &Mesh2) {
             VertexKind::Free => "f",
             VertexKind::Segment(_) => "g",
         };
-        let _ = writeln!(
-            svg,
-            "<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\".12\"/>",
-            p.x,
-            100.0 - p.y
-        );
+        let _ = writeln!(svg, "<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\".12\"/>", p.x, 100.0 - p.y);
     }
     svg.push_str("</g>\n");
 }

@@ -4,8 +4,8 @@ use crate::arith::FastKernel;
 use crate::check::grading::Selection;
 use crate::check::spacing::{Kind, Report, Spacing, Violation};
 use crate::model::{
-    Choice, DeletionPolicy, DiskChoice, Edge, GcdrParameters, Point2, Pslg, QueueOrder, Segment,
-    SmallAngles, VertexId, VertexOfTriangle,
+    Choice, DeletionPolicy, DiskChoice, Edge, GcdrParameters, Point2, Pslg, QueueOrder, Segment, SmallAngles, VertexId,
+    VertexOfTriangle,
 };
 use crate::refine::{Options, Run, RunError, gcdr};
 use crate::trace::{Event, Record, Sink};
@@ -18,16 +18,10 @@ pub fn squares() -> Pslg {
     for inset in [0.0, 1.0, 2.0, 3.0, 4.0] {
         let first = u32::try_from(pslg.points.len()).unwrap_or(0); // 20 points
         let (low, high) = (inset, 100.0 - inset);
-        pslg.points.extend(
-            [(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Point2::new(x, y)),
-        );
+        pslg.points.extend([(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Point2::new(x, y)));
         for k in 0..4 {
             let ends = [VertexId(first + k), VertexId(first + (k + 1) % 4)];
-            pslg.segments.push(Segment {
-                ends,
-                marker: 0,
-                toggles: true,
-            });
+            pslg.segments.push(Segment { ends, marker: 0, toggles: true });
         }
     }
     pslg
@@ -48,12 +42,7 @@ pub enum Experiment {
 ///
 /// "An arbitrary vertex" (end) of Experiment 1 is the newest: with it and the order `fifo` each triangle count of Table 7.1 is met within 4%.
 /// The other orders and vertices give 0.86 to 1.10 of the published counts.
-pub fn parameters(
-    rho2: f64,
-    [d2, d1, mu]: [f64; 3],
-    experiment: Experiment,
-    order: QueueOrder,
-) -> GcdrParameters {
+pub fn parameters(rho2: f64, [d2, d1, mu]: [f64; 3], experiment: Experiment, order: QueueOrder) -> GcdrParameters {
     let (choice_a, choice) = match experiment {
         Experiment::Center => (DiskChoice::Center, Choice::Center),
         Experiment::Extreme => (DiskChoice::Extreme, Choice::Extreme),
@@ -69,11 +58,7 @@ pub fn parameters(
         choice_c: choice,
         kappa: None,
         extreme: (experiment == Experiment::Extreme).then_some(VertexOfTriangle::Newest),
-        seed: if let Experiment::Random(seed) = experiment {
-            Some(seed)
-        } else {
-            None
-        },
+        seed: if let Experiment::Random(seed) = experiment { Some(seed) } else { None },
         order,
         deletion: DeletionPolicy::Segment,
         small_angles: SmallAngles::Off,
@@ -101,29 +86,19 @@ pub struct Measured {
 impl Measured {
     /// Largest densities of Type-A, B and C vertices; 0 where there are none.
     pub fn densities(&self) -> [f64; 3] {
-        [Kind::A, Kind::B, Kind::C]
-            .map(|kind| self.report.densities.get(&kind).copied().unwrap_or(0.0))
+        [Kind::A, Kind::B, Kind::C].map(|kind| self.report.densities.get(&kind).copied().unwrap_or(0.0))
     }
 }
 
 /// Refines the squares and measures.
 pub fn measure(parameters: &GcdrParameters) -> Result<Measured, RunError> {
     let mut listener = Listener::default();
-    let run = gcdr::run::<FastKernel>(
-        &squares(),
-        parameters,
-        &mut Options::default(),
-        &mut listener,
-    )?;
+    let run = gcdr::run::<FastKernel>(&squares(), parameters, &mut Options::default(), &mut listener)?;
     let edges = listener.edges(&run);
     if listener.violation.is_none() {
         listener.violation = listener.spacing.finish(None, edges).err();
     }
-    Ok(Measured {
-        run,
-        report: listener.spacing.report().clone(),
-        violation: listener.violation,
-    })
+    Ok(Measured { run, report: listener.spacing.report().clone(), violation: listener.violation })
 }
 
 /// Hands the records of a run to the checker's spacing.

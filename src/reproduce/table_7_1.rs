@@ -72,11 +72,7 @@ pub struct Observed {
 ///
 /// Errors: those of a run.
 pub fn table_7_1(seeds: u64, progress: &mut dyn FnMut(usize)) -> Result<Table, RunError> {
-    let mut table = Table {
-        seeds,
-        rows: Vec::new(),
-        spacing: [0; 3],
-    };
+    let mut table = Table { seeds, rows: Vec::new(), spacing: [0; 3] };
     for row in &TABLE {
         let line = table.line(row)?;
         table.rows.push(line);
@@ -91,21 +87,11 @@ impl Table {
         let s = selection(&parameters(RHO2, regions, Experiment::Extreme, ORDER));
         let printed = Constants::new(&s, C2::Printed, B2::Printed);
         let formula = printed.printed();
-        let fails = formula
-            .as_ref()
-            .map_or_else(Vec::new, |bounds| printed.violated(bounds));
+        let fails = formula.as_ref().map_or_else(Vec::new, |bounds| printed.violated(bounds));
         let refined = Constants::new(&s, C2::Sharp, B2::Refined).least();
-        let mut extreme = self.observe(
-            regions,
-            row.extreme,
-            &mut std::iter::once(Experiment::Extreme),
-        )?;
+        let mut extreme = self.observe(regions, row.extreme, &mut std::iter::once(Experiment::Extreme))?;
         extreme.published_triangles = Some(row.triangles);
-        let mut random = self.observe(
-            regions,
-            row.random,
-            &mut (0..self.seeds).map(Experiment::Random),
-        )?;
+        let mut random = self.observe(regions, row.random, &mut (0..self.seeds).map(Experiment::Random))?;
         for observed in [&mut extreme, &mut random] {
             observed.below_bounds = refined.as_ref().map(|bounds| below(observed.ours, bounds));
         }
@@ -116,10 +102,7 @@ impl Table {
             formula: formula.as_ref().map(rounded),
             fails: fails.iter().map(ToString::to_string).collect(),
             corrected_printed_c2: printed.least().as_ref().map(rounded),
-            corrected: Constants::new(&s, C2::Sharp, B2::Printed)
-                .least()
-                .as_ref()
-                .map(rounded),
+            corrected: Constants::new(&s, C2::Sharp, B2::Printed).least().as_ref().map(rounded),
             refined: refined.as_ref().map(rounded),
             extreme,
             random,
@@ -143,12 +126,7 @@ impl Table {
         };
         for experiment in experiments {
             let measured = measure(&parameters(RHO2, regions, experiment, ORDER))?;
-            for Count {
-                held,
-                undecided,
-                unclaimed,
-            } in measured.report.rows.values()
-            {
+            for Count { held, undecided, unclaimed } in measured.report.rows.values() {
                 for (sum, n) in self.spacing.iter_mut().zip([held, undecided, unclaimed]) {
                     *sum += n;
                 }
@@ -160,13 +138,8 @@ impl Table {
 
     /// Whether no row of spacing failed and every density is at most its bound.
     pub fn holds(&self) -> bool {
-        let observed = self
-            .rows
-            .iter()
-            .flat_map(|line| [&line.extreme, &line.random]);
-        observed
-            .into_iter()
-            .all(|o| o.violation.is_none() && o.below_bounds != Some(false))
+        let observed = self.rows.iter().flat_map(|line| [&line.extreme, &line.random]);
+        observed.into_iter().all(|o| o.violation.is_none() && o.below_bounds != Some(false))
     }
 }
 
@@ -179,10 +152,7 @@ impl Observed {
         self.triangles = [self.triangles[0].min(n), self.triangles[1].max(n)];
         if self.violation.is_none() {
             let text = |v: &crate::check::spacing::Violation| {
-                format!(
-                    "{} at event {:?}: expected {}, found {}",
-                    v.row, v.event, v.expected, v.found
-                )
+                format!("{} at event {:?}: expected {}, found {}", v.row, v.event, v.expected, v.found)
             };
             self.violation = measured.violation.as_ref().map(text);
         }
@@ -194,8 +164,7 @@ fn below(densities: [f64; 3], bounds: &Bounds) -> bool {
     // a density of 1 at a bound of 1 may be off by the rounding of the display
     let nearly = |d: f64| Enclosure::of(d * (1.0 - 4.0 * f64::EPSILON));
     let all = densities.iter().zip([&bounds.a, &bounds.b, &bounds.c]);
-    all.into_iter()
-        .all(|(d, bound)| nearly(*d).at_most(bound) == Some(true))
+    all.into_iter().all(|(d, bound)| nearly(*d).at_most(bound) == Some(true))
 }
 
 fn rounded(bounds: &Bounds) -> [f64; 3] {
@@ -218,10 +187,7 @@ impl fmt::Display for Table {
             "[GCDR] Table 7.1: five concentric squares, rho = sqrt 2, order fifo, extreme newest. Densities D = lfs/R as Type-A / B / C."
         )?;
         writeln!(f)?;
-        writeln!(
-            f,
-            "Bounds. \"fails\": inequalities of the paper's own system that the printed bounds violate."
-        )?;
+        writeln!(f, "Bounds. \"fails\": inequalities of the paper's own system that the printed bounds violate.")?;
         writeln!(
             f,
             "{:>2}  {:<14} {:<22} {:<22} {:<10} {:<22} {:<22} {:<22}",
@@ -258,15 +224,7 @@ impl fmt::Display for Table {
         writeln!(
             f,
             "{:>2}  {:<20} {:<20} {:>6} {:>6} {:>6}  {:<20} {:<20} {:<12} below",
-            "#",
-            "Exp. 1 published",
-            "ours",
-            "tri.",
-            "ours",
-            "ratio",
-            "Exp. 2 published",
-            "ours",
-            "triangles"
+            "#", "Exp. 1 published", "ours", "tri.", "ours", "ratio", "Exp. 2 published", "ours", "triangles"
         )?;
         for line in &self.rows {
             let (one, two) = (&line.extreme, &line.random);
@@ -302,10 +260,7 @@ impl fmt::Display for Table {
             "Rows of spacing (A6, B5', C3', C4', I1, F1, F2) over all runs: {held} held, {undecided} undecided, {unclaimed} without a claim."
         )?;
         for line in &self.rows {
-            for violation in [&line.extreme.violation, &line.random.violation]
-                .into_iter()
-                .flatten()
-            {
+            for violation in [&line.extreme.violation, &line.random.violation].into_iter().flatten() {
                 writeln!(f, "row {}: {violation}", line.number)?;
             }
         }

@@ -28,18 +28,15 @@ impl Divergence {
     /// What a difference in this field says of the two runs, in words.
     pub fn meaning(&self) -> &'static str {
         let top = self.field.split(['.', '[']).next().unwrap_or("");
-        let deep = self
-            .field
-            .strip_prefix("why.")
-            .map(|f| f.split(['.', '[']).next().unwrap_or(""));
+        let deep = self.field.strip_prefix("why.").map(|f| f.split(['.', '[']).next().unwrap_or(""));
         match (top, deep) {
             ("", _) => "one run does something else altogether, or has ended",
             ("format" | "version" | "algorithm" | "parameters" | "level" | "fill", _) => {
                 "the runs were asked for different things, or promise different things"
             }
             (
-                "vertex" | "segment" | "hole" | "region" | "marker" | "attributes" | "attribute"
-                | "toggles" | "max_area",
+                "vertex" | "segment" | "hole" | "region" | "marker" | "attributes" | "attribute" | "toggles"
+                | "max_area",
                 _,
             ) if self.event.is_none() => "the inputs differ",
             ("start" | "triangle", _) => {
@@ -52,9 +49,7 @@ impl Divergence {
                 "the same place was reached for another reason: visibility or encroachment differs"
             }
             ("why", Some("s")) => "another subsegment is in the way: the walk differs",
-            ("why", Some("a")) | ("p", _) => {
-                "the point was constructed differently: a choice, or its rounding"
-            }
+            ("why", Some("a")) | ("p", _) => "the point was constructed differently: a choice, or its rounding",
             ("why", _) => "the reasons of the step differ",
             ("destroyed" | "created" | "id", _) => {
                 "the same step changes other triangles: a predicate or a tie was decided differently"
@@ -74,11 +69,7 @@ impl std::fmt::Display for Divergence {
         if !self.field.is_empty() {
             write!(f, ", `{}`", self.field)?;
         }
-        write!(
-            f,
-            ": {} in the first, {} in the second",
-            self.first, self.second
-        )
+        write!(f, ": {} in the first, {} in the second", self.first, self.second)
     }
 }
 
@@ -95,13 +86,7 @@ pub struct Comparing<R: BufRead> {
 impl<R: BufRead> Comparing<R> {
     /// Compares with the trace that `first` reads.
     pub fn new(first: Reader<R>) -> Self {
-        Comparing {
-            first,
-            second: Ledger::default(),
-            scratch: Vec::new(),
-            records: 0,
-            divergence: None,
-        }
+        Comparing { first, second: Ledger::default(), scratch: Vec::new(), records: 0, divergence: None }
     }
 
     /// The difference that ended the run.
@@ -119,14 +104,8 @@ impl<R: BufRead> Sink for Comparing<R> {
     fn record(&mut self, record: &Record) -> io::Result<()> {
         let state = self.second.state.clone();
         self.second.pending.clear();
-        self.second
-            .enter(record)
-            .map_err(|why| io::Error::new(io::ErrorKind::InvalidInput, why))?;
-        let expected = self
-            .first
-            .next()
-            .transpose()
-            .map_err(|e| io::Error::new(io::ErrorKind::InvalidData, e))?;
+        self.second.enter(record).map_err(|why| io::Error::new(io::ErrorKind::InvalidInput, why))?;
+        let expected = self.first.next().transpose().map_err(|e| io::Error::new(io::ErrorKind::InvalidData, e))?;
         if let Some(expected) = &expected {
             self.scratch.clear();
             binary::encode(expected, &state, &mut self.scratch);
@@ -135,12 +114,7 @@ impl<R: BufRead> Sink for Comparing<R> {
                 return Ok(());
             }
         }
-        self.divergence = Some(locate(
-            self.records,
-            expected.as_ref(),
-            Some(record),
-            &state,
-        ));
+        self.divergence = Some(locate(self.records, expected.as_ref(), Some(record), &state));
         Err(io::Error::other("the runs diverge"))
     }
 }
@@ -166,8 +140,7 @@ pub fn first_divergence<R: BufRead, S: BufRead>(
         b_bytes.clear();
         binary::encode(x, &state, &mut a_bytes);
         binary::encode(y, &state, &mut b_bytes);
-        let digests_differ =
-            matches!((x, y), (Record::End(x), Record::End(y)) if x.trace != y.trace);
+        let digests_differ = matches!((x, y), (Record::End(x), Record::End(y)) if x.trace != y.trace);
         if a_bytes != b_bytes || digests_differ {
             return Ok(Some(locate(number, a.as_ref(), b.as_ref(), &state)));
         }
@@ -176,17 +149,10 @@ pub fn first_divergence<R: BufRead, S: BufRead>(
     }
 }
 
-fn locate(
-    record: u64,
-    first: Option<&Record>,
-    second: Option<&Record>,
-    state: &State,
-) -> Divergence {
+fn locate(record: u64, first: Option<&Record>, second: Option<&Record>, state: &State) -> Divergence {
     let lines = [first, second].map(|record| {
         let mut line = String::new();
-        record
-            .iter()
-            .for_each(|record| text::encode(record, state, &mut line));
+        record.iter().for_each(|record| text::encode(record, state, &mut line));
         line.trim_end().to_string()
     });
     // Our own encoder writes JSON; an ended trace has no line.
@@ -195,14 +161,7 @@ fn locate(
     let (x, y) = descend(a.as_ref(), b.as_ref(), &mut path);
     let show = |v: Option<&Value>| v.map_or_else(|| "nothing".to_string(), Value::to_string);
     let event = matches!(first, Some(Record::Event(_))).then_some(state.events);
-    Divergence {
-        record,
-        event,
-        field: path,
-        first: show(x),
-        second: show(y),
-        lines,
-    }
+    Divergence { record, event, field: path, first: show(x), second: show(y), lines }
 }
 
 /// Walks down to the first field that differs, in the order of keys.
@@ -213,18 +172,10 @@ fn descend<'a>(
 ) -> (Option<&'a Value>, Option<&'a Value>) {
     loop {
         match (a, b) {
-            (Some(Value::Object(x)), Some(Value::Object(y)))
-                if x.get("event") == y.get("event") =>
-            {
+            (Some(Value::Object(x)), Some(Value::Object(y))) if x.get("event") == y.get("event") => {
                 let mut keys: Vec<&String> = x.keys().chain(y.keys()).collect();
                 // Seldom-long lists of short keys; a reader wants the cause of a difference first.
-                keys.sort_by_key(|k| {
-                    (
-                        k.as_str() != "type",
-                        k.as_str() != "why",
-                        k.as_str().to_owned(),
-                    )
-                });
+                keys.sort_by_key(|k| (k.as_str() != "type", k.as_str() != "why", k.as_str().to_owned()));
                 let Some(key) = keys.into_iter().find(|k| x.get(*k) != y.get(*k)) else {
                     return (a, b);
                 };

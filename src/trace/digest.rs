@@ -26,9 +26,7 @@ pub fn mesh_digest(mesh: &Mesh2) -> String {
     }
     put(&(mesh.edges.len() as u64).to_le_bytes());
     for e in &mesh.edges {
-        [e.ends[0].0, e.ends[1].0, e.segment.0]
-            .iter()
-            .for_each(|n| put(&n.to_le_bytes()));
+        [e.ends[0].0, e.ends[1].0, e.segment.0].iter().for_each(|n| put(&n.to_le_bytes()));
     }
     // An empty part hashes what is left.
     put(&[]);

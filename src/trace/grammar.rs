@@ -45,24 +45,15 @@ impl State {
                 match &header.algorithm {
                     Algorithm::Delaunay => Ok(()),
                     Algorithm::Gcdr(p) => {
-                        let numbers = [p.rho2, p.d1, p.d2, p.mu]
-                            .into_iter()
-                            .chain(p.kappa)
-                            .chain(p.max_area);
-                        holds(
-                            numbers.into_iter().all(f64::is_finite),
-                            "a parameter is not finite",
-                        )
+                        let numbers = [p.rho2, p.d1, p.d2, p.mu].into_iter().chain(p.kappa).chain(p.max_area);
+                        holds(numbers.into_iter().all(f64::is_finite), "a parameter is not finite")
                     }
                 }
             }
             Record::Vertex { at, attributes, .. } => {
                 self.in_domain(Stage::Vertices)?;
                 finite(*at)?;
-                holds(
-                    attributes.iter().all(|a| a.is_finite()),
-                    "an attribute is not finite",
-                )?;
+                holds(attributes.iter().all(|a| a.is_finite()), "an attribute is not finite")?;
                 holds(
                     self.next == 0 || attributes.len() == self.attributes,
                     "vertices differ in their number of attributes",
@@ -79,10 +70,7 @@ impl State {
                 self.in_domain(Stage::Regions)?;
                 finite(region.seed)?;
                 let bound = region.max_area.is_none_or(f64::is_finite);
-                holds(
-                    region.attribute.is_finite() && bound,
-                    "a number of the region is not finite",
-                )
+                holds(region.attribute.is_finite() && bound, "a number of the region is not finite")
             }
             Record::Start { .. } => self.in_domain(Stage::Regions),
             Record::Triangle(t) => {
@@ -91,10 +79,7 @@ impl State {
                     "a triangle beyond those announced by `start`",
                 )?;
                 self.triangle(*t)?;
-                holds(
-                    self.previous.is_none_or(|p| p < *t),
-                    "triangles of `start` are not in ascending order",
-                )
+                holds(self.previous.is_none_or(|p| p < *t), "triangles of `start` are not in ascending order")
             }
             Record::Event(event) => {
                 self.running()?;
@@ -151,10 +136,7 @@ impl State {
         holds(self.stage != Stage::Fresh, "the header is missing")?;
         holds(self.stage != Stage::Ended, "a record after the end")?;
         holds(self.stage == Stage::Started, "`start` is missing")?;
-        holds(
-            self.triangles_left == 0,
-            "fewer triangles than `start` announced",
-        )
+        holds(self.triangles_left == 0, "fewer triangles than `start` announced")
     }
 
     fn event(&self, event: &Event) -> Result<(), &'static str> {
@@ -186,14 +168,7 @@ impl State {
     fn why(&self, why: &Why) -> Result<(), &'static str> {
         match why {
             Why::Free { cause } => sized(cause),
-            Why::Split {
-                kind,
-                s,
-                t,
-                cause,
-                a,
-                shell,
-            } => {
+            Why::Split { kind, s, t, cause, a, shell } => {
                 self.edge(*s)?;
                 self.triangle(*t)?;
                 sized(cause)?;
@@ -207,10 +182,7 @@ impl State {
     }
 
     fn end(&self, end: &End) -> Result<(), &'static str> {
-        holds(
-            is_digest(&end.mesh),
-            "the digest of the mesh is not 64 lowercase hexadecimal digits",
-        )
+        holds(is_digest(&end.mesh), "the digest of the mesh is not 64 lowercase hexadecimal digits")
     }
 
     fn known(&self, id: VertexId) -> Result<(), &'static str> {
@@ -223,10 +195,7 @@ impl State {
     }
 
     fn triangle(&self, [a, b, c]: Triangle) -> Result<(), &'static str> {
-        holds(
-            a < b && a < c && b != c,
-            "a triangle does not name its smallest id first, or names one twice",
-        )?;
+        holds(a < b && a < c && b != c, "a triangle does not name its smallest id first, or names one twice")?;
         self.known(b)?;
         self.known(c)
     }
@@ -240,18 +209,12 @@ pub(super) fn is_digest(text: &str) -> bool {
 fn sized(cause: &Cause) -> Result<(), &'static str> {
     match cause {
         Cause::Skinny | Cause::Area => Ok(()),
-        Cause::Size { h } => holds(
-            h.is_finite(),
-            "the value of the size function is not finite",
-        ),
+        Cause::Size { h } => holds(h.is_finite(), "the value of the size function is not finite"),
     }
 }
 
 fn finite(p: Point2) -> Result<(), &'static str> {
-    holds(
-        p.x.is_finite() && p.y.is_finite(),
-        "a coordinate is not finite",
-    )
+    holds(p.x.is_finite() && p.y.is_finite(), "a coordinate is not finite")
 }
 
 fn holds(fact: bool, otherwise: &'static str) -> Result<(), &'static str> {

@@ -16,8 +16,7 @@ mod text;
 pub use compare::{Comparing, Divergence, first_divergence};
 pub use digest::mesh_digest;
 pub use record::{
-    Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, Shell, Sink, SkipReason,
-    SplitKind, Why,
+    Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, Shell, Sink, SkipReason, SplitKind, Why,
 };
 pub use sinks::{Discard, Recorder};
 pub use stream::{DecodeError, Format, Place, Reader, Writer};

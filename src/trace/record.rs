@@ -1,8 +1,6 @@
 //! What a trace says, record by record. `docs/trace-format.md` is the normative text.
 
-use crate::model::{
-    Edge, Fill, GcdrParameters, Level, Point2, Region, Segment, SegmentId, Triangle, VertexId,
-};
+use crate::model::{Edge, Fill, GcdrParameters, Level, Point2, Region, Segment, SegmentId, Triangle, VertexId};
 
 /// One record of a trace. A trace is: header, vertices, segments, holes, regions, start, its triangles, events, end.
 #[derive(Clone, Debug, PartialEq)]

@@ -45,12 +45,7 @@ impl Ledger {
 
     /// blake3 of all bytes entered, in hexadecimal.
     pub(super) fn digest(&self) -> String {
-        self.hasher
-            .clone()
-            .update(&self.pending)
-            .finalize()
-            .to_hex()
-            .to_string()
+        self.hasher.clone().update(&self.pending).finalize().to_hex().to_string()
     }
 }
 
@@ -69,13 +64,7 @@ pub struct Writer<W: Write> {
 impl<W: Write> Writer<W> {
     /// A writer at the head of a trace.
     pub fn new(out: W, format: Format) -> Self {
-        Writer {
-            out,
-            format,
-            ledger: Ledger::default(),
-            line: String::new(),
-            digest: None,
-        }
+        Writer { out, format, ledger: Ledger::default(), line: String::new(), digest: None }
     }
 
     /// The digest of the trace, in hexadecimal, once the end was written.
@@ -86,10 +75,7 @@ impl<W: Write> Writer<W> {
     /// Flushes and gives back what was written to. Errors: `UnexpectedEof` if the end was not written.
     pub fn finish(mut self) -> io::Result<W> {
         if self.digest.is_none() {
-            return Err(io::Error::new(
-                io::ErrorKind::UnexpectedEof,
-                "the trace has no end",
-            ));
+            return Err(io::Error::new(io::ErrorKind::UnexpectedEof, "the trace has no end"));
         }
         self.out.flush()?;
         Ok(self.out)
@@ -130,11 +116,7 @@ impl<W: Write> Sink for Writer<W> {
             text::encode(record, &self.ledger.state, &mut self.line);
         }
         self.ledger.enter(record).map_err(refuse)?;
-        if self.ledger.pending.len() >= CHUNK {
-            self.pass_on()
-        } else {
-            Ok(())
-        }
+        if self.ledger.pending.len() >= CHUNK { self.pass_on() } else { Ok(()) }
     }
 }
 
@@ -233,11 +215,7 @@ impl<R: BufRead> Reader<R> {
             Some(format) => format,
             None => {
                 let first = self.input.fill_buf()?.first().copied();
-                *self.format.insert(if first == Some(binary::MAGIC[0]) {
-                    Format::Binary
-                } else {
-                    Format::Text
-                })
+                *self.format.insert(if first == Some(binary::MAGIC[0]) { Format::Binary } else { Format::Text })
             }
         };
         if self.ledger.pending.len() >= CHUNK {
@@ -251,10 +229,7 @@ impl<R: BufRead> Reader<R> {
         if self.ledger.state.ended() {
             let more = self.at < self.buffer.len() || !self.input.fill_buf()?.is_empty();
             if more {
-                return Err(DecodeError::Malformed(
-                    self.place(),
-                    "more follows the end record".into(),
-                ));
+                return Err(DecodeError::Malformed(self.place(), "more follows the end record".into()));
             }
         }
         Ok(record)
@@ -266,9 +241,7 @@ impl<R: BufRead> Reader<R> {
                 Ok(decoded) => break decoded,
                 Err(binary::Fault::Short) => {
                     if !self.refill()? {
-                        return Err(DecodeError::Truncated(Place::Byte(
-                            self.passed + self.buffer.len() as u64,
-                        )));
+                        return Err(DecodeError::Truncated(Place::Byte(self.passed + self.buffer.len() as u64)));
                     }
                 }
                 Err(binary::Fault::Bad(inside, why)) => {
@@ -278,10 +251,7 @@ impl<R: BufRead> Reader<R> {
             }
         };
         let mut bytes = &self.buffer[self.at..self.at + length];
-        let start = self
-            .ledger
-            .enter(&record)
-            .map_err(|why| DecodeError::Malformed(place, why.into()))?;
+        let start = self.ledger.enter(&record).map_err(|why| DecodeError::Malformed(place, why.into()))?;
         if let Record::End(_) = record {
             // The 32 bytes of the digest of the trace, which `enter` leaves out; decoding to hexadecimal and back loses nothing.
             bytes = &bytes[..length - 32];
@@ -311,25 +281,18 @@ impl<R: BufRead> Reader<R> {
             return Err(DecodeError::Truncated(place));
         };
         let record = text::decode(line).map_err(malformed)?;
-        self.ledger
-            .state
-            .check(&record)
-            .map_err(|why| malformed(why.into()))?;
+        self.ledger.state.check(&record).map_err(|why| malformed(why.into()))?;
         if let Record::End(end) = &record
             && !is_digest(&end.trace)
         {
-            return Err(malformed(
-                "the digest of the trace is not 64 lowercase hexadecimal digits".into(),
-            ));
+            return Err(malformed("the digest of the trace is not 64 lowercase hexadecimal digits".into()));
         }
         self.line.clear();
         text::encode(&record, &self.ledger.state, &mut self.line);
         if self.line.as_bytes() != self.buffer {
             return Err(DecodeError::NotCanonical(place));
         }
-        self.ledger
-            .enter(&record)
-            .map_err(|why| malformed(why.into()))?;
+        self.ledger.enter(&record).map_err(|why| malformed(why.into()))?;
         self.buffer.clear();
         self.passed += 1;
         Ok(record)

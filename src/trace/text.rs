@@ -4,10 +4,7 @@
 //! spelling; the reader then writes what it understood and accepts only the same bytes.
 
 use super::grammar::State;
-use super::record::{
-    Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, Shell, SkipReason, SplitKind,
-    Why,
-};
+use super::record::{Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, Shell, SkipReason, SplitKind, Why};
 use crate::model::{Edge, GcdrParameters, Point2, Region, Segment, SegmentId, Triangle, VertexId};
 use serde::Serialize;
 use serde_json::{Map, Value, ser::Formatter};
@@ -18,11 +15,7 @@ use std::io;
 pub(super) fn encode(record: &Record, state: &State, out: &mut String) {
     match record {
         Record::Header(header) => put_header(out, header),
-        Record::Vertex {
-            at,
-            marker,
-            attributes,
-        } => {
+        Record::Vertex { at, marker, attributes } => {
             out.push_str("{\"vertex\":");
             put_point(out, *at);
             if let Some(marker) = marker {
@@ -34,28 +27,17 @@ pub(super) fn encode(record: &Record, state: &State, out: &mut String) {
             }
             out.push_str("}\n");
         }
-        Record::Segment(Segment {
-            ends,
-            marker,
-            toggles,
-        }) => {
+        Record::Segment(Segment { ends, marker, toggles }) => {
             out.push_str("{\"segment\":");
             put_ids(out, ends);
-            put(
-                out,
-                format_args!(",\"marker\":{marker},\"toggles\":{toggles}}}\n"),
-            );
+            put(out, format_args!(",\"marker\":{marker},\"toggles\":{toggles}}}\n"));
         }
         Record::Hole(at) => {
             out.push_str("{\"hole\":");
             put_point(out, *at);
             out.push_str("}\n");
         }
-        Record::Region(Region {
-            seed,
-            attribute,
-            max_area,
-        }) => {
+        Record::Region(Region { seed, attribute, max_area }) => {
             out.push_str("{\"region\":");
             put_point(out, *seed);
             out.push_str(",\"attribute\":");
@@ -78,13 +60,7 @@ pub(super) fn encode(record: &Record, state: &State, out: &mut String) {
 }
 
 fn put_header(out: &mut String, header: &Header) {
-    put(
-        out,
-        format_args!(
-            "{{\"format\":\"orthoball-trace\",\"version\":{}",
-            super::binary::VERSION
-        ),
-    );
+    put(out, format_args!("{{\"format\":\"orthoball-trace\",\"version\":{}", super::binary::VERSION));
     match &header.algorithm {
         Algorithm::Delaunay => out.push_str(",\"algorithm\":\"delaunay\""),
         Algorithm::Gcdr(parameters) => {
@@ -104,10 +80,7 @@ fn put_header(out: &mut String, header: &Header) {
 fn put_event(out: &mut String, event: &Event, number: u64) {
     match event {
         Event::Insert { p, why, destroyed } => {
-            put(
-                out,
-                format_args!("{{\"i\":{number},\"event\":\"insert\",\"why\":"),
-            );
+            put(out, format_args!("{{\"i\":{number},\"event\":\"insert\",\"why\":"));
             put_why(out, why);
             out.push_str(",\"p\":");
             put_point(out, *p);
@@ -115,32 +88,21 @@ fn put_event(out: &mut String, event: &Event, number: u64) {
             put_list(out, destroyed, |out, t| put_ids(out, t));
         }
         Event::Remove { id, created } => {
-            put(
-                out,
-                format_args!(
-                    "{{\"i\":{number},\"event\":\"remove\",\"id\":{},\"created\":",
-                    id.0
-                ),
-            );
+            put(out, format_args!("{{\"i\":{number},\"event\":\"remove\",\"id\":{},\"created\":", id.0));
             put_list(out, created, |out, t| put_ids(out, t));
         }
         Event::Skip { t, cause, reason } => {
-            put(
-                out,
-                format_args!("{{\"i\":{number},\"event\":\"skip\",\"t\":"),
-            );
+            put(out, format_args!("{{\"i\":{number},\"event\":\"skip\",\"t\":"));
             put_ids(out, t);
             put_cause(out, cause);
             match reason {
                 SkipReason::Resolution => out.push_str(",\"reason\":\"resolution\""),
-                SkipReason::InputAngle { apex } => put(
-                    out,
-                    format_args!(",\"reason\":\"input-angle\",\"apex\":{}", apex.0),
-                ),
-                SkipReason::SplitLimit { segment } => put(
-                    out,
-                    format_args!(",\"reason\":\"split-limit\",\"segment\":{}", segment.0),
-                ),
+                SkipReason::InputAngle { apex } => {
+                    put(out, format_args!(",\"reason\":\"input-angle\",\"apex\":{}", apex.0))
+                }
+                SkipReason::SplitLimit { segment } => {
+                    put(out, format_args!(",\"reason\":\"split-limit\",\"segment\":{}", segment.0))
+                }
             }
         }
     }
@@ -153,20 +115,10 @@ fn put_why(out: &mut String, why: &Why) {
             out.push_str("{\"type\":\"A\"");
             put_cause(out, cause);
         }
-        Why::Split {
-            kind,
-            s,
-            t,
-            cause,
-            a,
-            shell,
-        } => {
+        Why::Split { kind, s, t, cause, a, shell } => {
             match kind {
                 SplitKind::B => out.push_str("{\"type\":\"B\",\"s\":"),
-                SplitKind::C { parent } => put(
-                    out,
-                    format_args!("{{\"type\":\"C\",\"parent\":{},\"s\":", parent.0),
-                ),
+                SplitKind::C { parent } => put(out, format_args!("{{\"type\":\"C\",\"parent\":{},\"s\":", parent.0)),
             }
             put_ids(out, s);
             out.push_str(",\"t\":");
@@ -175,10 +127,7 @@ fn put_why(out: &mut String, why: &Why) {
             out.push_str(",\"a\":");
             put_point(out, *a);
             if let Some(Shell { apex, k }) = shell {
-                put(
-                    out,
-                    format_args!(",\"shell\":{{\"apex\":{},\"k\":{k}}}", apex.0),
-                );
+                put(out, format_args!(",\"shell\":{{\"apex\":{},\"k\":{k}}}", apex.0));
             }
         }
     }
@@ -197,13 +146,7 @@ fn put_cause(out: &mut String, cause: &Cause) {
 }
 
 fn put_end(out: &mut String, end: &End) {
-    put(
-        out,
-        format_args!(
-            "{{\"event\":\"end\",\"outcome\":\"{}\"",
-            outcome_name(end.outcome)
-        ),
-    );
+    put(out, format_args!("{{\"event\":\"end\",\"outcome\":\"{}\"", outcome_name(end.outcome)));
     if let Some(reason) = &end.stop_reason {
         out.push_str(",\"stop_reason\":");
         put_json(out, reason);
@@ -212,31 +155,10 @@ fn put_end(out: &mut String, end: &End) {
         out.push_str(",\"level_effective\":");
         put_json(out, level);
     }
-    let Counts {
-        vertices,
-        triangles,
-        type_a,
-        type_b,
-        type_c,
-        removed,
-        unmet,
-    } = end.counts;
-    put(
-        out,
-        format_args!(
-            ",\"counts\":{{\"vertices\":{vertices},\"triangles\":{triangles},\"type_a\":{type_a}"
-        ),
-    );
-    put(
-        out,
-        format_args!(
-            ",\"type_b\":{type_b},\"type_c\":{type_c},\"removed\":{removed},\"unmet\":{unmet}}}"
-        ),
-    );
-    put(
-        out,
-        format_args!(",\"mesh\":\"{}\",\"trace\":\"{}\"}}\n", end.mesh, end.trace),
-    );
+    let Counts { vertices, triangles, type_a, type_b, type_c, removed, unmet } = end.counts;
+    put(out, format_args!(",\"counts\":{{\"vertices\":{vertices},\"triangles\":{triangles},\"type_a\":{type_a}"));
+    put(out, format_args!(",\"type_b\":{type_b},\"type_c\":{type_c},\"removed\":{removed},\"unmet\":{unmet}}}"));
+    put(out, format_args!(",\"mesh\":\"{}\",\"trace\":\"{}\"}}\n", end.mesh, end.trace));
 }
 
 /// The name of an outcome in traces and reports.
@@ -291,11 +213,7 @@ fn put_json(out: &mut String, value: &impl Serialize) {
     }
     let mut bytes = Vec::new();
     // Plain structs, enums and strings have a JSON form, and a vector takes all.
-    value
-        .serialize(&mut serde_json::Serializer::with_formatter(
-            &mut bytes, Spelling,
-        ))
-        .expect("plain data");
+    value.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, Spelling)).expect("plain data");
     // serde_json writes UTF-8 only.
     out.push_str(std::str::from_utf8(&bytes).expect("JSON is UTF-8"));
 }
@@ -316,49 +234,23 @@ pub(super) fn decode(line: &[u8]) -> Result<Record, Refusal> {
         return event(&o);
     }
     if o.has("vertex") {
-        let marker = if o.has("marker") {
-            Some(o.get("marker")?)
-        } else {
-            None
-        };
-        let attributes = if o.has("attributes") {
-            o.get("attributes")?
-        } else {
-            Vec::new()
-        };
-        return Ok(Record::Vertex {
-            at: o.point("vertex")?,
-            marker,
-            attributes,
-        });
+        let marker = if o.has("marker") { Some(o.get("marker")?) } else { None };
+        let attributes = if o.has("attributes") { o.get("attributes")? } else { Vec::new() };
+        return Ok(Record::Vertex { at: o.point("vertex")?, marker, attributes });
     }
     if o.has("segment") {
         let ends: Edge = o.get("segment")?;
-        return Ok(Record::Segment(Segment {
-            ends,
-            marker: o.get("marker")?,
-            toggles: o.get("toggles")?,
-        }));
+        return Ok(Record::Segment(Segment { ends, marker: o.get("marker")?, toggles: o.get("toggles")? }));
     }
     if o.has("hole") {
         return Ok(Record::Hole(o.point("hole")?));
     }
     if o.has("region") {
-        let max_area = if o.has("max_area") {
-            Some(o.get("max_area")?)
-        } else {
-            None
-        };
-        return Ok(Record::Region(Region {
-            seed: o.point("region")?,
-            attribute: o.get("attribute")?,
-            max_area,
-        }));
+        let max_area = if o.has("max_area") { Some(o.get("max_area")?) } else { None };
+        return Ok(Record::Region(Region { seed: o.point("region")?, attribute: o.get("attribute")?, max_area }));
     }
     if o.has("start") {
-        return Ok(Record::Start {
-            triangles: o.get("start")?,
-        });
+        return Ok(Record::Start { triangles: o.get("start")? });
     }
     if o.has("triangle") {
         return Ok(Record::Triangle(o.get("triangle")?));
@@ -372,25 +264,14 @@ fn header(o: &Object) -> Result<Header, Refusal> {
     }
     let version: u64 = o.get("version")?;
     if version != u64::from(super::binary::VERSION) {
-        return Err(format!(
-            "version {version} of the format; this program reads version {}",
-            super::binary::VERSION
-        ));
+        return Err(format!("version {version} of the format; this program reads version {}", super::binary::VERSION));
     }
     let algorithm = match o.get::<String>("algorithm")?.as_str() {
         "delaunay" => Algorithm::Delaunay,
         "gcdr" => Algorithm::Gcdr(o.get::<GcdrParameters>("parameters")?),
         other => return Err(format!("algorithm {other:?} is not known")),
     };
-    Ok(Header {
-        algorithm,
-        level: if o.has("level") {
-            Some(o.get("level")?)
-        } else {
-            None
-        },
-        fill: o.get("fill")?,
-    })
+    Ok(Header { algorithm, level: if o.has("level") { Some(o.get("level")?) } else { None }, fill: o.get("fill")? })
 }
 
 fn event(o: &Object) -> Result<Record, Refusal> {
@@ -400,32 +281,17 @@ fn event(o: &Object) -> Result<Record, Refusal> {
                 return Err("`why` is not an object".into());
             };
             let destroyed: Vec<Triangle> = o.get("destroyed")?;
-            Event::Insert {
-                p: o.point("p")?,
-                why: why(&Object(why_object.clone()))?,
-                destroyed,
-            }
+            Event::Insert { p: o.point("p")?, why: why(&Object(why_object.clone()))?, destroyed }
         }
-        "remove" => Event::Remove {
-            id: o.get("id")?,
-            created: o.get("created")?,
-        },
+        "remove" => Event::Remove { id: o.get("id")?, created: o.get("created")? },
         "skip" => {
             let reason = match o.get::<String>("reason")?.as_str() {
                 "resolution" => SkipReason::Resolution,
-                "input-angle" => SkipReason::InputAngle {
-                    apex: o.get("apex")?,
-                },
-                "split-limit" => SkipReason::SplitLimit {
-                    segment: SegmentId(o.get("segment")?),
-                },
+                "input-angle" => SkipReason::InputAngle { apex: o.get("apex")? },
+                "split-limit" => SkipReason::SplitLimit { segment: SegmentId(o.get("segment")?) },
                 other => return Err(format!("reason {other:?} is not known")),
             };
-            Event::Skip {
-                t: o.get("t")?,
-                cause: cause(o)?,
-                reason,
-            }
+            Event::Skip { t: o.get("t")?, cause: cause(o)?, reason }
         }
         "end" => return end(o).map(Record::End),
         other => return Err(format!("event {other:?} is not known")),
@@ -437,30 +303,18 @@ fn why(o: &Object) -> Result<Why, Refusal> {
     let kind = match o.get::<String>("type")?.as_str() {
         "A" => return Ok(Why::Free { cause: cause(o)? }),
         "B" => SplitKind::B,
-        "C" => SplitKind::C {
-            parent: o.get("parent")?,
-        },
+        "C" => SplitKind::C { parent: o.get("parent")? },
         other => return Err(format!("type {other:?} is not known")),
     };
     let shell = match o.0.get("shell") {
         None => None,
         Some(Value::Object(shell)) => {
             let shell = Object(shell.clone());
-            Some(Shell {
-                apex: shell.get("apex")?,
-                k: shell.get("k")?,
-            })
+            Some(Shell { apex: shell.get("apex")?, k: shell.get("k")? })
         }
         Some(_) => return Err("`shell` is not an object".into()),
     };
-    Ok(Why::Split {
-        kind,
-        s: o.get("s")?,
-        t: o.get("t")?,
-        cause: cause(o)?,
-        a: o.point("a")?,
-        shell,
-    })
+    Ok(Why::Split { kind, s: o.get("s")?, t: o.get("t")?, cause: cause(o)?, a: o.point("a")?, shell })
 }
 
 fn cause(o: &Object) -> Result<Cause, Refusal> {
@@ -485,16 +339,8 @@ fn end(o: &Object) -> Result<End, Refusal> {
     let c = Object(counts.clone());
     Ok(End {
         outcome,
-        stop_reason: if o.has("stop_reason") {
-            Some(o.get("stop_reason")?)
-        } else {
-            None
-        },
-        level_effective: if o.has("level_effective") {
-            Some(o.get("level_effective")?)
-        } else {
-            None
-        },
+        stop_reason: if o.has("stop_reason") { Some(o.get("stop_reason")?) } else { None },
+        level_effective: if o.has("level_effective") { Some(o.get("level_effective")?) } else { None },
         counts: Counts {
             vertices: c.get("vertices")?,
             triangles: c.get("triangles")?,
@@ -518,10 +364,7 @@ impl Object {
     }
 
     fn get<T: serde::de::DeserializeOwned>(&self, key: &str) -> Result<T, Refusal> {
-        let value = self
-            .0
-            .get(key)
-            .ok_or_else(|| format!("`{key}` is missing"))?;
+        let value = self.0.get(key).ok_or_else(|| format!("`{key}` is missing"))?;
         T::deserialize(value).map_err(|e| format!("`{key}`: {e}"))
     }
 

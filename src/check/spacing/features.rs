@@ -65,19 +65,10 @@ const BOX_SLACK: f64 = 1.0 - 8.0 * f64::EPSILON;
 impl Features {
     /// The features of a (repaired) input.
     pub fn new(points: Vec<Point2>, segments: Vec<[VertexId; 2]>) -> Self {
-        let vertices = (0u32..)
-            .zip(&points)
-            .map(|(v, _)| Feature::Vertex(VertexId(v)));
-        let edges = (0u32..)
-            .zip(&segments)
-            .map(|(s, _)| Feature::Segment(SegmentId(s)));
+        let vertices = (0u32..).zip(&points).map(|(v, _)| Feature::Vertex(VertexId(v)));
+        let edges = (0u32..).zip(&segments).map(|(s, _)| Feature::Segment(SegmentId(s)));
         let leaves: Vec<Feature> = vertices.chain(edges).collect();
-        let mut features = Features {
-            points,
-            segments,
-            nodes: Vec::new(),
-            leaves,
-        };
+        let mut features = Features { points, segments, nodes: Vec::new(), leaves };
         if !features.leaves.is_empty() {
             features.build(0, features.leaves.len());
         }
@@ -103,11 +94,10 @@ impl Features {
     pub fn incident(&self, f: Feature, g: Feature) -> bool {
         match (f, g) {
             (Feature::Vertex(_), Feature::Vertex(_)) => false,
-            (Feature::Vertex(v), Feature::Segment(s))
-            | (Feature::Segment(s), Feature::Vertex(v)) => self.ends(s).contains(&v),
-            (Feature::Segment(s), Feature::Segment(t)) => {
-                self.ends(s).iter().any(|v| self.ends(t).contains(v))
+            (Feature::Vertex(v), Feature::Segment(s)) | (Feature::Segment(s), Feature::Vertex(v)) => {
+                self.ends(s).contains(&v)
             }
+            (Feature::Segment(s), Feature::Segment(t)) => self.ends(s).iter().any(|v| self.ends(t).contains(v)),
         }
     }
 
@@ -131,34 +121,21 @@ impl Features {
         let mut first = None;
         while let Some(found) = walk.next_below(beyond) {
             if first.is_none()
-                && let Some(other) = met
-                    .iter()
-                    .take(ENOUGH)
-                    .find(|m| !self.incident(m.feature, found.feature))
+                && let Some(other) = met.iter().take(ENOUGH).find(|m| !self.incident(m.feature, found.feature))
             {
-                beyond = if other.high > found.high {
-                    other.high
-                } else {
-                    found.high
-                };
+                beyond = if other.high > found.high { other.high } else { found.high };
                 first = Some(met.len());
             }
             met.push(found);
         }
         let Some(first) = first else {
             // fewer than two features, or all pairwise incident: no disk meets two non-incident ones
-            return Local {
-                size2: Bounded::of(f64::INFINITY),
-                feature: None,
-            };
+            return Local { size2: Bounded::of(f64::INFINITY), feature: None };
         };
         // earlier ones are pairwise incident, so every non-incident pair holds the candidate or one met after it
         let candidate = met[first];
         let alone = met.len() == first + 1 && met[..first].iter().all(|m| m.high < candidate.low);
-        Local {
-            size2: Bounded::between(candidate.low, beyond),
-            feature: alone.then_some(candidate.feature),
-        }
+        Local { size2: Bounded::between(candidate.low, beyond), feature: alone.then_some(candidate.feature) }
     }
 
     /// The feature at distance lfs(p), in rationals where doubles do not tell; `None` if there is none.
@@ -173,35 +150,20 @@ impl Features {
     }
 
     /// Sorts features by exact distance and finds the first that is not incident to an earlier one.
-    fn first_non_incident(
-        &self,
-        p: Point2,
-        features: impl Iterator<Item = Feature>,
-    ) -> Option<Feature> {
-        let mut sorted: Vec<(Enclosure, Feature)> =
-            features.map(|f| (self.distance2(f, p), f)).collect();
+    fn first_non_incident(&self, p: Point2, features: impl Iterator<Item = Feature>) -> Option<Feature> {
+        let mut sorted: Vec<(Enclosure, Feature)> = features.map(|f| (self.distance2(f, p), f)).collect();
         // squared distances are rational, so the order is known
         sorted.sort_by(|(d, f), (e, g)| d.compare(e).unwrap_or(Ordering::Equal).then(f.cmp(g)));
         (1..sorted.len())
             .map(|i| sorted[i].1)
             .zip(1..)
-            .find_map(|(f, i)| {
-                sorted[..i]
-                    .iter()
-                    .take(ENOUGH)
-                    .any(|(_, g)| !self.incident(f, *g))
-                    .then_some(f)
-            })
+            .find_map(|(f, i)| sorted[..i].iter().take(ENOUGH).any(|(_, g)| !self.incident(f, *g)).then_some(f))
     }
 
     /// Bounds of the squared distance, from rationals where doubles cannot tell on which side of an end p lies.
     fn bounds(&self, f: Feature, p: Point2) -> Bounded {
         let fast: Bounded = self.distance2(f, p);
-        if fast.is_known() {
-            fast
-        } else {
-            self.distance2::<Enclosure>(f, p).rounded()
-        }
+        if fast.is_known() { fast } else { self.distance2::<Enclosure>(f, p).rounded() }
     }
 
     fn box_of(&self, f: Feature) -> ([f64; 2], [f64; 2]) {
@@ -226,11 +188,7 @@ impl Features {
             }
         }
         let node = self.nodes.len();
-        self.nodes.push(Node {
-            low,
-            high,
-            content: Content::Leaves { first, last },
-        });
+        self.nodes.push(Node { low, high, content: Content::Leaves { first, last } });
         if last - first > LEAF {
             let k = usize::from(high[1] - low[1] > high[0] - low[0]);
             let mut keyed: Vec<(f64, Feature)> = (self.leaves[first..last].iter())
@@ -301,11 +259,7 @@ impl Eq for Entry {}
 
 impl<'a> Walk<'a> {
     fn new(features: &'a Features, p: Point2) -> Self {
-        let mut walk = Walk {
-            features,
-            p,
-            heap: BinaryHeap::new(),
-        };
+        let mut walk = Walk { features, p, heap: BinaryHeap::new() };
         if !features.nodes.is_empty() {
             walk.push_node(0);
         }
@@ -315,14 +269,8 @@ impl<'a> Walk<'a> {
     fn push_node(&mut self, node: usize) {
         let n = &self.features.nodes[node];
         let gap = |low: f64, high: f64, x: f64| (low - x).max(x - high).max(0.0);
-        let (x, y) = (
-            gap(n.low[0], n.high[0], self.p.x),
-            gap(n.low[1], n.high[1], self.p.y),
-        );
-        self.heap.push(Entry {
-            key: (x * x + y * y) * BOX_SLACK,
-            item: Item::Node(node),
-        });
+        let (x, y) = (gap(n.low[0], n.high[0], self.p.x), gap(n.low[1], n.high[1], self.p.y));
+        self.heap.push(Entry { key: (x * x + y * y) * BOX_SLACK, item: Item::Node(node) });
     }
 
     /// The next feature whose lower bound does not exceed `bound`.
@@ -339,15 +287,8 @@ impl<'a> Walk<'a> {
                     Content::Leaves { first, last } => {
                         for feature in &self.features.leaves[first..last] {
                             let d = self.features.bounds(*feature, self.p);
-                            let met = Met {
-                                low: d.low(),
-                                high: d.high(),
-                                feature: *feature,
-                            };
-                            self.heap.push(Entry {
-                                key: met.low,
-                                item: Item::Met(met),
-                            });
+                            let met = Met { low: d.low(), high: d.high(), feature: *feature };
+                            self.heap.push(Entry { key: met.low, item: Item::Met(met) });
                         }
                     }
                 },
@@ -368,8 +309,7 @@ mod tests {
         for (i, f) in all.iter().enumerate() {
             for g in &all[..i] {
                 if !features.incident(*f, *g) {
-                    let (a, b): (Enclosure, Enclosure) =
-                        (features.distance2(*f, p), features.distance2(*g, p));
+                    let (a, b): (Enclosure, Enclosure) = (features.distance2(*f, p), features.distance2(*g, p));
                     let both = a.max(b);
                     best = Some(best.map_or(both.clone(), |x| x.min(both)));
                 }
@@ -380,9 +320,7 @@ mod tests {
 
     fn check(features: &Features, p: Point2) {
         let expected = by_definition(features, p);
-        let found = features
-            .local_exactly(p)
-            .map(|f| features.distance2::<Enclosure>(f, p));
+        let found = features.local_exactly(p).map(|f| features.distance2::<Enclosure>(f, p));
         match (&expected, &found) {
             (None, None) => {}
             (Some(e), Some(f)) => {
@@ -416,50 +354,22 @@ mod tests {
             (0.75, 0.75),
             (0.25, 0.75),
         ]);
-        let segments = ids(&[
-            [0, 1],
-            [1, 2],
-            [2, 3],
-            [3, 0],
-            [4, 5],
-            [5, 6],
-            [6, 7],
-            [7, 4],
-            [0, 4],
-        ]);
+        let segments = ids(&[[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4]]);
         let features = Features::new(input, segments);
         for i in 0..=16 {
             for j in 0..=16 {
-                check(
-                    &features,
-                    Point2::new(f64::from(i) / 16.0, f64::from(j) / 16.0),
-                );
+                check(&features, Point2::new(f64::from(i) / 16.0, f64::from(j) / 16.0));
             }
         }
-        assert!(
-            features.local(Point2::new(0.5, 0.5)).feature.is_none(),
-            "four sides are equally near"
-        );
+        assert!(features.local(Point2::new(0.5, 0.5)).feature.is_none(), "four sides are equally near");
     }
 
     #[test]
     fn agrees_with_the_definition_on_stars_and_triangles() {
-        let rays = [
-            (0.5, 0.5),
-            (1.0, 0.5),
-            (0.9, 0.9),
-            (0.5, 1.0),
-            (0.1, 0.9),
-            (0.0, 0.5),
-            (0.1, 0.1),
-            (0.5, 0.0),
-        ];
+        let rays = [(0.5, 0.5), (1.0, 0.5), (0.9, 0.9), (0.5, 1.0), (0.1, 0.9), (0.0, 0.5), (0.1, 0.1), (0.5, 0.0)];
         let star: Vec<[u32; 2]> = (1..8).map(|i| [0, i]).collect();
         let star = Features::new(points(&rays), ids(&star));
-        let triangle = Features::new(
-            points(&[(0.0, 0.0), (1.0, 0.0), (0.3, 0.8)]),
-            ids(&[[0, 1], [1, 2], [2, 0]]),
-        );
+        let triangle = Features::new(points(&[(0.0, 0.0), (1.0, 0.0), (0.3, 0.8)]), ids(&[[0, 1], [1, 2], [2, 0]]));
         let mut x = 0.7f64;
         for _ in 0..400 {
             let mut coordinate = || {
@@ -468,10 +378,7 @@ mod tests {
             };
             let p = Point2::new(coordinate(), coordinate());
             check(&star, p);
-            check(
-                &star,
-                Point2::new(0.5 + (p.x - 0.5) / 1024.0, 0.5 + (p.y - 0.5) / 1024.0),
-            );
+            check(&star, Point2::new(0.5 + (p.x - 0.5) / 1024.0, 0.5 + (p.y - 0.5) / 1024.0));
             check(&triangle, p);
         }
     }

@@ -118,11 +118,7 @@ struct Effective {
 
 impl Default for Effective {
     fn default() -> Self {
-        Effective {
-            d1: f64::INFINITY,
-            d2: f64::INFINITY,
-            mu: f64::INFINITY,
-        }
+        Effective { d1: f64::INFINITY, d2: f64::INFINITY, mu: f64::INFINITY }
     }
 }
 
@@ -133,14 +129,12 @@ fn distance2<N: Scalar>(a: Point2, b: Point2) -> N {
 
 /// (b - a).(d - c).
 fn dot<N: Scalar>([a, b]: [Point2; 2], [c, d]: [Point2; 2]) -> N {
-    (N::of(b.x) - N::of(a.x)) * (N::of(d.x) - N::of(c.x))
-        + (N::of(b.y) - N::of(a.y)) * (N::of(d.y) - N::of(c.y))
+    (N::of(b.x) - N::of(a.x)) * (N::of(d.x) - N::of(c.x)) + (N::of(b.y) - N::of(a.y)) * (N::of(d.y) - N::of(c.y))
 }
 
 /// Twice the signed area of a triangle.
 fn cross<N: Scalar>(a: Point2, b: Point2, c: Point2) -> N {
-    (N::of(b.x) - N::of(a.x)) * (N::of(c.y) - N::of(a.y))
-        - (N::of(b.y) - N::of(a.y)) * (N::of(c.x) - N::of(a.x))
+    (N::of(b.x) - N::of(a.x)) * (N::of(c.y) - N::of(a.y)) - (N::of(b.y) - N::of(a.y)) * (N::of(c.x) - N::of(a.x))
 }
 
 /// Squared distance of p to the closed segment ab; unknown if it is unknown beside which end p lies.
@@ -200,9 +194,7 @@ impl Spacing {
 
     /// The density of a vertex, rounded; kept after its deletion.
     pub fn density(&self, v: VertexId) -> Option<f64> {
-        self.vertices
-            .get(v.index())
-            .map(|vertex| self.density2(vertex).display().sqrt())
+        self.vertices.get(v.index()).map(|vertex| self.density2(vertex).display().sqrt())
     }
 
     /// Tests the rows of the end, F1 and F2. `smallest` is the smallest input angle below 90 degrees as (apex, p, q); `edges` are
@@ -239,11 +231,7 @@ impl Spacing {
         }
         let parameters = self.parameters.as_ref()?;
         let least = |nominal: f64, effective: f64| {
-            if effective < nominal {
-                effective
-            } else {
-                nominal
-            }
+            if effective < nominal { effective } else { nominal }
         };
         let Effective { d1, d2, mu } = self.least;
         let mut selection = Selection::of(
@@ -269,12 +257,7 @@ impl Spacing {
 
     fn unreadable(&self, found: impl Into<String>) -> Violation {
         let expected = "a record that the replay accepts".to_owned();
-        Violation {
-            event: Some(self.events),
-            row: Row::Record,
-            expected,
-            found: found.into(),
-        }
+        Violation { event: Some(self.events), row: Row::Record, expected, found: found.into() }
     }
 
     /// All features are known: normalises them and measures the input vertices.
@@ -285,37 +268,19 @@ impl Spacing {
             return Err(self.unreadable("coordinates or ids out of range"));
         }
         self.started = true;
-        let largest = self
-            .points
-            .iter()
-            .fold(0.0f64, |m, p| m.max(p.x.abs()).max(p.y.abs()));
+        let largest = self.points.iter().fold(0.0f64, |m, p| m.max(p.x.abs()).max(p.y.abs()));
         self.scale = exponent(largest);
-        let points: Vec<Point2> = std::mem::take(&mut self.points)
-            .into_iter()
-            .map(|p| self.normalised(p))
-            .collect();
-        self.by_ends = (0u32..)
-            .zip(&self.segments)
-            .map(|(i, s)| (edge(*s), SegmentId(i)))
-            .collect();
+        let points: Vec<Point2> = std::mem::take(&mut self.points).into_iter().map(|p| self.normalised(p)).collect();
+        self.by_ends = (0u32..).zip(&self.segments).map(|(i, s)| (edge(*s), SegmentId(i))).collect();
         self.features = Features::new(points.clone(), std::mem::take(&mut self.segments));
         let features = &self.features;
-        let vertex = |p| Vertex {
-            p,
-            kind: Kind::Input,
-            nearest: None,
-            local: features.local(p),
-            split: None,
-        };
+        let vertex = |p| Vertex { p, kind: Kind::Input, nearest: None, local: features.local(p), split: None };
         self.vertices = points.into_iter().map(vertex).collect();
         Ok(())
     }
 
     fn normalised(&self, p: Point2) -> Point2 {
-        Point2::new(
-            times_power_of_two(p.x, -self.scale),
-            times_power_of_two(p.y, -self.scale),
-        )
+        Point2::new(times_power_of_two(p.x, -self.scale), times_power_of_two(p.y, -self.scale))
     }
 
     /// A triangle of the initial triangulation: its edges are candidates for the insertion radii of input vertices.
@@ -363,39 +328,23 @@ impl Spacing {
             Why::Free { cause } => (destroyed.first().copied(), *cause),
             Why::Split { t, cause, .. } => (Some(*t), *cause),
         };
-        let Some(t) = t.filter(|t| {
-            known(t) && destroyed.iter().all(known) && p.x.is_finite() && p.y.is_finite()
-        }) else {
+        let Some(t) = t.filter(|t| known(t) && destroyed.iter().all(known) && p.x.is_finite() && p.y.is_finite())
+        else {
             return Err(self.unreadable("an insertion with unknown vertices"));
         };
         let split = match why {
             Why::Free { .. } => None,
-            Why::Split { s, .. } => Some(Split {
-                ends: *s,
-                segment: self.segment_of(*s)?,
-            }),
+            Why::Split { s, .. } => Some(Split { ends: *s, segment: self.segment_of(*s)? }),
         };
         let kind = match why {
             Why::Free { .. } => Kind::A,
-            Why::Split {
-                kind: SplitKind::B, ..
-            } => Kind::B,
-            Why::Split {
-                kind: SplitKind::C { .. },
-                ..
-            } => Kind::C,
+            Why::Split { kind: SplitKind::B, .. } => Kind::B,
+            Why::Split { kind: SplitKind::C { .. }, .. } => Kind::C,
         };
         let p = self.normalised(p);
         let id = self.vertices.len();
-        let v =
-            VertexId(u32::try_from(id).map_err(|_| self.unreadable("more than 2^32 vertices"))?);
-        self.vertices.push(Vertex {
-            p,
-            kind,
-            nearest: None,
-            local: self.features.local(p),
-            split,
-        });
+        let v = VertexId(u32::try_from(id).map_err(|_| self.unreadable("more than 2^32 vertices"))?);
+        self.vertices.push(Vertex { p, kind, nearest: None, local: self.features.local(p), split });
         let mut nearest = None;
         for w in destroyed.iter().flatten() {
             nearest = Some(self.nearer(v, nearest, *w));
@@ -406,41 +355,18 @@ impl Spacing {
         self.sized |= !skinny;
         match why {
             Why::Free { .. } => {
-                let scene = Scene {
-                    id,
-                    parent: skinny.then(|| self.parent_of(t)),
-                    t,
-                    a: p,
-                };
+                let scene = Scene { id, parent: skinny.then(|| self.parent_of(t)), t, a: p };
                 self.rows_a(&scene)
             }
-            Why::Split {
-                kind: SplitKind::B,
-                a,
-                ..
-            } => {
-                let scene = Scene {
-                    id,
-                    parent: skinny.then(|| self.parent_of(t)),
-                    t,
-                    a: self.normalised(*a),
-                };
+            Why::Split { kind: SplitKind::B, a, .. } => {
+                let scene = Scene { id, parent: skinny.then(|| self.parent_of(t)), t, a: self.normalised(*a) };
                 self.rows_b(&scene)
             }
-            Why::Split {
-                kind: SplitKind::C { parent },
-                a,
-                ..
-            } => {
+            Why::Split { kind: SplitKind::C { parent }, a, .. } => {
                 if parent.index() >= id {
                     return Err(self.unreadable("an unknown parent"));
                 }
-                let scene = Scene {
-                    id,
-                    parent: Some(*parent),
-                    t,
-                    a: self.normalised(*a),
-                };
+                let scene = Scene { id, parent: Some(*parent), t, a: self.normalised(*a) };
                 self.rows_c(&scene)
             }
         }
@@ -448,9 +374,7 @@ impl Spacing {
 
     /// The input segment that a subsegment is part of. A segment vertex lies on one only; two input vertices are its ends.
     fn segment_of(&self, s: Edge) -> Result<SegmentId, Violation> {
-        let labels = s
-            .iter()
-            .map(|v| self.vertices.get(v.index()).and_then(|vertex| vertex.split));
+        let labels = s.iter().map(|v| self.vertices.get(v.index()).and_then(|vertex| vertex.split));
         labels
             .flatten()
             .map(|split| split.segment)
@@ -501,11 +425,8 @@ impl Spacing {
 /// cos^2 of the angle at `apex`; `None` from 90 degrees on.
 fn cos2(apex: Point2, p: Point2, q: Point2) -> Option<Rational> {
     let product: Enclosure = dot([apex, p], [apex, q]);
-    let quotient =
-        product.clone().squared() / (distance2::<Enclosure>(apex, p) * distance2(apex, q));
-    (product.at_most(&Enclosure::of(0.0)) == Some(false))
-        .then(|| quotient.rational().cloned())
-        .flatten()
+    let quotient = product.clone().squared() / (distance2::<Enclosure>(apex, p) * distance2(apex, q));
+    (product.at_most(&Enclosure::of(0.0)) == Some(false)).then(|| quotient.rational().cloned()).flatten()
 }
 
 /// Whether |p a| < |p b|.
@@ -518,9 +439,7 @@ fn compare_lengths(e: [Point2; 2], f: [Point2; 2]) -> std::cmp::Ordering {
     fn order<N: Scalar>([a, b]: [Point2; 2], [c, d]: [Point2; 2]) -> Option<std::cmp::Ordering> {
         distance2::<N>(a, b).compare(&distance2(c, d))
     }
-    order::<Bounded>(e, f)
-        .or_else(|| order::<Enclosure>(e, f))
-        .unwrap_or(std::cmp::Ordering::Equal)
+    order::<Bounded>(e, f).or_else(|| order::<Enclosure>(e, f)).unwrap_or(std::cmp::Ordering::Equal)
 }
 
 /// A pair of ids, the smaller first.

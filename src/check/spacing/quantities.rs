@@ -23,9 +23,7 @@ impl Measure for Bounded {
 
 impl Measure for Enclosure {
     fn lfs2(features: &Features, vertex: &Vertex) -> Self {
-        features
-            .local_exactly(vertex.p)
-            .map_or_else(Self::unknown, |f| features.distance2(f, vertex.p))
+        features.local_exactly(vertex.p).map_or_else(Self::unknown, |f| features.distance2(f, vertex.p))
     }
     fn bound(of: &Enclosure) -> Self {
         of.clone()
@@ -44,9 +42,7 @@ pub(super) enum Incidence {
 
 impl Spacing {
     pub(super) fn rho2<N: Scalar>(&self) -> N {
-        self.parameters
-            .as_ref()
-            .map_or_else(N::unknown, |p| N::of(p.rho2))
+        self.parameters.as_ref().map_or_else(N::unknown, |p| N::of(p.rho2))
     }
 
     pub(super) fn rho<N: Scalar>(&self) -> N {
@@ -126,10 +122,7 @@ impl Spacing {
             return N::of(0.0);
         };
         let [u, v] = self.ends(split);
-        let [a, b] = self
-            .features
-            .ends(split.segment)
-            .map(|v| self.features.point(v));
+        let [a, b] = self.features.ends(split.segment).map(|v| self.features.point(v));
         distance_to_segment::<N>(vertex.p, u, v).max(distance_to_segment(vertex.p, a, b))
     }
 
@@ -139,9 +132,7 @@ impl Spacing {
         }
         let (s, w) = (self.ends(split), self.vertices[w.index()].p);
         // the product is rational, so the second number type always tells
-        product::<Bounded>(s, w)
-            .or_else(|| product::<Enclosure>(s, w))
-            .unwrap_or(false)
+        product::<Bounded>(s, w).or_else(|| product::<Enclosure>(s, w)).unwrap_or(false)
     }
 
     /// How the input segments of a Type-C point and its parent meet.
@@ -149,11 +140,7 @@ impl Spacing {
         let mine = self.features.ends(split.segment);
         let Some(theirs) = self.vertices[parent.index()].split else {
             let is_end = mine.contains(&parent);
-            return if is_end {
-                Incidence::Unclaimed
-            } else {
-                Incidence::NonIncident
-            };
+            return if is_end { Incidence::Unclaimed } else { Incidence::NonIncident };
         };
         if theirs.segment == split.segment {
             return Incidence::Unclaimed;
@@ -163,11 +150,7 @@ impl Spacing {
             return Incidence::NonIncident;
         };
         let (apex, v) = (mine[i], mine[1 - i]);
-        let w = if theirs[0] == apex {
-            theirs[1]
-        } else {
-            theirs[0]
-        };
+        let w = if theirs[0] == apex { theirs[1] } else { theirs[0] };
         let points = [apex, v, w].map(|x| self.features.point(x));
         // the case's proof asks for at least 60 degrees, and for less than 90
         match cos2(points[0], points[1], points[2]) {

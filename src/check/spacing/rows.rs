@@ -108,15 +108,7 @@ impl Spacing {
             self.count(Row::I1).held += 1;
             return Ok(());
         }
-        test!(
-            self,
-            None,
-            Row::I1,
-            AtMost,
-            "lfs(p)^2 <= R^2",
-            || format!("vertex {id}"),
-            i1(id)
-        )
+        test!(self, None, Row::I1, AtMost, "lfs(p)^2 <= R^2", || format!("vertex {id}"), i1(id))
     }
 
     pub(super) fn rows_a(&mut self, scene: &Scene) -> Result<(), Violation> {
@@ -128,25 +120,9 @@ impl Spacing {
         };
         let found = self.effective_of(scene, parent);
         let text = "dist(p,p')^2 <= (2 - d2)^2 r^2";
-        test!(
-            self,
-            event,
-            Row::A6,
-            AtMost,
-            text,
-            || found.clone(),
-            a6_distance(scene, parent)
-        )?;
+        test!(self, event, Row::A6, AtMost, text, || found.clone(), a6_distance(scene, parent))?;
         let text = "D <= B1 + D'/C1";
-        test!(
-            self,
-            event,
-            Row::A6,
-            AtMost,
-            text,
-            || found.clone(),
-            a6_density(scene, parent)
-        )
+        test!(self, event, Row::A6, AtMost, text, || found.clone(), a6_density(scene, parent))
     }
 
     pub(super) fn rows_b(&mut self, scene: &Scene) -> Result<(), Violation> {
@@ -160,56 +136,19 @@ impl Spacing {
         let found = self.effective_of(scene, parent);
         if self.strictly_in_diametral_disk(split, parent) {
             let text = "2 dist(p,p') < (2 - d1)|s|, squared";
-            test!(
-                self,
-                event,
-                Row::B5,
-                Below,
-                text,
-                || found.clone(),
-                non_external_distance(scene, split, parent)
-            )?;
+            test!(self, event, Row::B5, Below, text, || found.clone(), non_external_distance(scene, split, parent))?;
             // Case (2) needs d2 >= 1/rho
-            if self
-                .d2::<Enclosure>(scene)
-                .squared()
-                .compare(&self.one_over_rho2())
-                .is_none_or(|o| o.is_lt())
-            {
+            if self.d2::<Enclosure>(scene).squared().compare(&self.one_over_rho2()).is_none_or(|o| o.is_lt()) {
                 self.count(Row::B5).unclaimed += 1;
                 return Ok(());
             }
             let text = "D <= B2 + D'/C2, times R";
-            test!(
-                self,
-                event,
-                Row::B5,
-                AtMost,
-                text,
-                || found.clone(),
-                b5_density_non_external(scene, split, parent)
-            )
+            test!(self, event, Row::B5, AtMost, text, || found.clone(), b5_density_non_external(scene, split, parent))
         } else {
             let text = "2 dist(p,p') <= (1 + sqrt((2 - d2)/d2) - d1)|s|, squared";
-            test!(
-                self,
-                event,
-                Row::B5,
-                AtMost,
-                text,
-                || found.clone(),
-                b5_distance_external(scene, split, parent)
-            )?;
+            test!(self, event, Row::B5, AtMost, text, || found.clone(), b5_distance_external(scene, split, parent))?;
             let text = "D <= B3 + D'/C3, times R";
-            test!(
-                self,
-                event,
-                Row::B5,
-                AtMost,
-                text,
-                || found.clone(),
-                b5_density_external(scene, split, parent)
-            )
+            test!(self, event, Row::B5, AtMost, text, || found.clone(), b5_density_external(scene, split, parent))
         }
     }
 
@@ -223,15 +162,7 @@ impl Spacing {
         };
         let found = self.effective_of(scene, parent);
         let text = "2 dist(p,p') < (2 - mu)|s|, squared";
-        test!(
-            self,
-            event,
-            Row::C4,
-            Below,
-            text,
-            || found.clone(),
-            non_external_distance(scene, split, parent)
-        )?;
+        test!(self, event, Row::C4, Below, text, || found.clone(), non_external_distance(scene, split, parent))?;
         match self.incidence(split, parent) {
             Incidence::NonIncident => {
                 if self.vertices[scene.id].nearest == Some(parent) {
@@ -247,15 +178,7 @@ impl Spacing {
                     )?;
                 } else {
                     let text = "mu lfs(p) <= (2 - mu) R, squared";
-                    test!(
-                        self,
-                        event,
-                        Row::C3,
-                        AtMost,
-                        text,
-                        || found.clone(),
-                        c3_end_nearest(scene, split, parent)
-                    )?;
+                    test!(self, event, Row::C3, AtMost, text, || found.clone(), c3_end_nearest(scene, split, parent))?;
                 }
                 // D <= 1/C5 is the second of these, and follows from the first
                 self.count(Row::C4).held += 1;
@@ -304,23 +227,13 @@ impl Spacing {
                 }
                 let text = "lfs(x) <= (1 + max D) |xy|, squared";
                 let found = || format!("edge {} {}", x.0, y.0);
-                test!(
-                    self,
-                    None,
-                    Row::F2,
-                    AtMost,
-                    text,
-                    found,
-                    f2_edge(x, y, largest)
-                )?;
+                test!(self, None, Row::F2, AtMost, text, found, f2_edge(x, y, largest))?;
             }
         }
         // a disk that meets two non-incident features has at least half the least distance of two such; that
         // distance is met at an input vertex v, where it is lfs(v)
         let inputs = self.vertices.iter().filter(|v| v.kind == Kind::Input);
-        let least = inputs
-            .map(|v| v.local.size2.high())
-            .fold(f64::INFINITY, f64::min);
+        let least = inputs.map(|v| v.local.size2.high()).fold(f64::INFINITY, f64::min);
         for id in 0..self.vertices.len() {
             if self.vertices[id].nearest.is_some() && least.is_finite() {
                 let found = || format!("vertex {id}");
@@ -342,128 +255,68 @@ impl Spacing {
 
     fn i1<N: Measure>(&self, id: usize) -> Sides<N> {
         let vertex = &self.vertices[id];
-        Sides {
-            left: N::lfs2(&self.features, vertex),
-            right: self.radius2(vertex),
-        }
+        Sides { left: N::lfs2(&self.features, vertex), right: self.radius2(vertex) }
     }
 
     /// |pp'| <= |po| + r, squared once: the root is of |po|^2 r^2 and equality is decided.
     fn a6_distance<N: Measure>(&self, scene: &Scene, parent: VertexId) -> Sides<N> {
         let (from_center2, r2) = self.circle::<N>(scene);
         let left = distance2(self.vertices[scene.id].p, self.vertices[parent.index()].p);
-        Sides {
-            left,
-            right: from_center2.clone()
-                + r2.clone()
-                + number::<N>(2.0) * (from_center2 * r2).root(),
-        }
+        Sides { left, right: from_center2.clone() + r2.clone() + number::<N>(2.0) * (from_center2 * r2).root() }
     }
 
     fn a6_density<N: Measure>(&self, scene: &Scene, parent: VertexId) -> Sides<N> {
         let d2 = self.d2::<N>(scene);
         let c1 = self.rho::<N>() * d2.clone();
-        let right =
-            (number::<N>(2.0) - d2.clone()) / d2 + self.density_of::<N>(parent.index()) / c1;
-        Sides {
-            left: self.density_of(scene.id),
-            right,
-        }
+        let right = (number::<N>(2.0) - d2.clone()) / d2 + self.density_of::<N>(parent.index()) / c1;
+        Sides { left: self.density_of(scene.id), right }
     }
 
     /// Type-B with non-external parent and Type-C: 2|pp'| < (2 - d)|s| + 2 slack.
-    fn non_external_distance<N: Measure>(
-        &self,
-        scene: &Scene,
-        split: Split,
-        parent: VertexId,
-    ) -> Sides<N> {
-        let left = number::<N>(4.0)
-            * distance2(self.vertices[scene.id].p, self.vertices[parent.index()].p);
-        let bound2 =
-            (number::<N>(2.0) - self.share(scene.id, split)).squared() * self.length2(split);
-        Sides {
-            left,
-            right: widened(
-                bound2,
-                number::<N>(2.0) * self.slack(scene.id, split, parent),
-            ),
-        }
+    fn non_external_distance<N: Measure>(&self, scene: &Scene, split: Split, parent: VertexId) -> Sides<N> {
+        let left = number::<N>(4.0) * distance2(self.vertices[scene.id].p, self.vertices[parent.index()].p);
+        let bound2 = (number::<N>(2.0) - self.share(scene.id, split)).squared() * self.length2(split);
+        Sides { left, right: widened(bound2, number::<N>(2.0) * self.slack(scene.id, split, parent)) }
     }
 
-    fn b5_distance_external<N: Measure>(
-        &self,
-        scene: &Scene,
-        split: Split,
-        parent: VertexId,
-    ) -> Sides<N> {
+    fn b5_distance_external<N: Measure>(&self, scene: &Scene, split: Split, parent: VertexId) -> Sides<N> {
         let pp2: N = distance2(self.vertices[scene.id].p, self.vertices[parent.index()].p);
         let d2 = self.d2::<N>(scene);
         let outward = ((number::<N>(2.0) - d2.clone()) / d2).root();
         let factor = number::<N>(1.0) + outward - self.share(scene.id, split);
         let slack = number::<N>(2.0) * self.slack(scene.id, split, parent);
-        Sides {
-            left: number::<N>(4.0) * pp2,
-            right: widened(factor.squared() * self.length2(split), slack),
-        }
+        Sides { left: number::<N>(4.0) * pp2, right: widened(factor.squared() * self.length2(split), slack) }
     }
 
-    fn b5_density_non_external<N: Measure>(
-        &self,
-        scene: &Scene,
-        split: Split,
-        parent: VertexId,
-    ) -> Sides<N> {
+    fn b5_density_non_external<N: Measure>(&self, scene: &Scene, split: Split, parent: VertexId) -> Sides<N> {
         let d1: N = self.share(scene.id, split);
         let b2 = (number::<N>(2.0) - d1.clone()) / d1.clone();
         let cos2_theta = number::<N>(1.0) - number::<N>(0.25) * self.one_over_rho2();
         self.recurrence(scene, split, parent, b2, d1 * cos2_theta.root())
     }
 
-    fn b5_density_external<N: Measure>(
-        &self,
-        scene: &Scene,
-        split: Split,
-        parent: VertexId,
-    ) -> Sides<N> {
+    fn b5_density_external<N: Measure>(&self, scene: &Scene, split: Split, parent: VertexId) -> Sides<N> {
         let (d1, d2): (N, N) = (self.share(scene.id, split), self.d2(scene));
         let toward = number::<N>(2.0) - d2.clone();
-        let b3 =
-            (number::<N>(1.0) + (toward.clone() / d2.clone()).root() - d1.clone()) / d1.clone();
+        let b3 = (number::<N>(1.0) + (toward.clone() / d2.clone()).root() - d1.clone()) / d1.clone();
         let c3 = self.rho::<N>() * d1 * (d2 * toward).root();
         self.recurrence(scene, split, parent, b3, c3)
     }
 
-    fn c3_parent_nearest<N: Measure>(
-        &self,
-        scene: &Scene,
-        split: Split,
-        parent: VertexId,
-    ) -> Sides<N> {
+    fn c3_parent_nearest<N: Measure>(&self, scene: &Scene, split: Split, parent: VertexId) -> Sides<N> {
         let vertex = &self.vertices[scene.id];
         let right = widened(self.radius2(vertex), self.slack(scene.id, split, parent));
-        Sides {
-            left: N::lfs2(&self.features, vertex),
-            right,
-        }
+        Sides { left: N::lfs2(&self.features, vertex), right }
     }
 
     /// mu lfs <= (2 - mu)(R + slack) + slack.
-    fn c3_end_nearest<N: Measure>(
-        &self,
-        scene: &Scene,
-        split: Split,
-        parent: VertexId,
-    ) -> Sides<N> {
+    fn c3_end_nearest<N: Measure>(&self, scene: &Scene, split: Split, parent: VertexId) -> Sides<N> {
         let vertex = &self.vertices[scene.id];
         let mu: N = self.share(scene.id, split);
         let left = mu.clone().squared() * N::lfs2(&self.features, vertex);
         let bound2 = (number::<N>(2.0) - mu.clone()).squared() * self.radius2(vertex);
         let slack = (number::<N>(3.0) - mu) * self.slack(scene.id, split, parent);
-        Sides {
-            left,
-            right: widened(bound2, slack),
-        }
+        Sides { left, right: widened(bound2, slack) }
     }
 
     fn c4_density<N: Measure>(
@@ -476,30 +329,19 @@ impl Spacing {
     ) -> Sides<N> {
         let mu: N = self.share(scene.id, split);
         let [apex, v, w] = [apex, v, w].map(|x| self.features.point(x));
-        let cos: N =
-            dot::<N>([apex, v], [apex, w]) / (distance2::<N>(apex, v) * distance2(apex, w)).root();
+        let cos: N = dot::<N>([apex, v], [apex, w]) / (distance2::<N>(apex, v) * distance2(apex, w)).root();
         let b4 = (number::<N>(2.0) - mu.clone()) / mu.clone();
         self.recurrence(scene, split, parent, b4, mu / (number::<N>(2.0) * cos))
     }
 
     /// D <= B + D'/C times R: lfs(p) <= (R + slack)(B + D'/C) + slack (1 + D').
-    fn recurrence<N: Measure>(
-        &self,
-        scene: &Scene,
-        split: Split,
-        parent: VertexId,
-        b: N,
-        c: N,
-    ) -> Sides<N> {
+    fn recurrence<N: Measure>(&self, scene: &Scene, split: Split, parent: VertexId, b: N, c: N) -> Sides<N> {
         let vertex = &self.vertices[scene.id];
         let slack: N = self.slack(scene.id, split, parent);
         let theirs: N = self.density_of(parent.index());
         let radius = self.radius2::<N>(vertex).root() + slack.clone();
         let right = radius * (b + theirs.clone() / c) + slack * (number::<N>(1.0) + theirs);
-        Sides {
-            left: N::lfs2(&self.features, vertex).root(),
-            right,
-        }
+        Sides { left: N::lfs2(&self.features, vertex).root(), right }
     }
 
     /// lfs <= D_X (R + slack) + slack (1 + D_X).
@@ -508,10 +350,7 @@ impl Spacing {
         let d = N::bound(bound);
         let slack = self.own_slack::<N>(id) * (number::<N>(1.0) + number::<N>(2.0) * d.clone());
         let right = widened(d.squared() * self.radius2(vertex), slack);
-        Sides {
-            left: N::lfs2(&self.features, vertex),
-            right,
-        }
+        Sides { left: N::lfs2(&self.features, vertex), right }
     }
 
     fn f2_edge<N: Measure>(&self, x: VertexId, y: VertexId, largest: &Enclosure) -> Sides<N> {
@@ -520,29 +359,19 @@ impl Spacing {
         let slack = (self.own_slack::<N>(x.index()) + self.own_slack(y.index()))
             * (number::<N>(1.0) + number::<N>(2.0) * d.clone());
         let bound2 = (number::<N>(1.0) + d).squared() * distance2(p.p, q.p);
-        Sides {
-            left: N::lfs2(&self.features, p),
-            right: widened(bound2, slack),
-        }
+        Sides { left: N::lfs2(&self.features, p), right: widened(bound2, slack) }
     }
 
     fn f2_radius<N: Measure>(&self, id: usize, least2: f64, largest: &Enclosure) -> Sides<N> {
         let right = N::bound(largest).squared() * self.radius2(&self.vertices[id]);
-        Sides {
-            left: number::<N>(0.25) * number(least2),
-            right,
-        }
+        Sides { left: number::<N>(0.25) * number(least2), right }
     }
 
     // Bookkeeping.
 
     fn note_d2(&mut self, scene: &Scene) {
         let d2 = self.d2::<Bounded>(scene);
-        let low = if d2.is_known() {
-            d2.low()
-        } else {
-            self.d2::<Enclosure>(scene).rounded().low()
-        };
+        let low = if d2.is_known() { d2.low() } else { self.d2::<Enclosure>(scene).rounded().low() };
         self.least.d2 = self.least.d2.min(low);
     }
 
@@ -550,20 +379,14 @@ impl Spacing {
         let vertex = &self.vertices[scene.id];
         let Some(split) = vertex.split else { return };
         let low = self.share::<Bounded>(scene.id, split).low();
-        let least = if vertex.kind == Kind::B {
-            &mut self.least.d1
-        } else {
-            &mut self.least.mu
-        };
+        let least = if vertex.kind == Kind::B { &mut self.least.d1 } else { &mut self.least.mu };
         *least = least.min(low);
     }
 
     fn effective_of(&self, scene: &Scene, parent: VertexId) -> String {
         let d2 = self.d2::<Bounded>(scene).display();
         let vertex = &self.vertices[scene.id];
-        let share = vertex
-            .split
-            .map(|split| self.share::<Bounded>(scene.id, split).display());
+        let share = vertex.split.map(|split| self.share::<Bounded>(scene.id, split).display());
         match (vertex.kind, share) {
             (Kind::B, Some(d1)) => format!("parent {}, d2 = {d2}, d1 = {d1}", parent.0),
             (Kind::C, Some(mu)) => format!("parent {}, mu = {mu}", parent.0),
@@ -580,25 +403,13 @@ impl Spacing {
         sides: &Sides<Bounded>,
         found: impl Fn() -> String,
     ) -> Result<(), Violation> {
-        let Count {
-            held, undecided, ..
-        } = self.count(row);
+        let Count { held, undecided, .. } = self.count(row);
         match holds {
             Some(true) => *held += 1,
             None => *undecided += 1,
             Some(false) => {
-                let found = format!(
-                    "{} against {}; {}",
-                    sides.left.display(),
-                    sides.right.display(),
-                    found()
-                );
-                return Err(Violation {
-                    event,
-                    row,
-                    expected: text.to_owned(),
-                    found,
-                });
+                let found = format!("{} against {}; {}", sides.left.display(), sides.right.display(), found());
+                return Err(Violation { event, row, expected: text.to_owned(), found });
             }
         }
         Ok(())

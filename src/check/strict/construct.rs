@@ -20,11 +20,7 @@ pub struct Value {
 pub type Place = [Value; 2];
 
 fn rational(p: Exact) -> Value {
-    Value {
-        p,
-        q: Exact::of(0.0),
-        d: Exact::of(0.0),
-    }
+    Value { p, q: Exact::of(0.0), d: Exact::of(0.0) }
 }
 
 impl Value {
@@ -34,11 +30,7 @@ impl Value {
         let middle = (Exact::of(m) + Exact::of(other)) * Exact::of(0.5);
         let first = self.p.clone() - middle;
         let (a, b) = (exact_sign(&first), exact_sign(&self.q));
-        let b = if exact_sign(&self.d) == Sign::Zero {
-            Sign::Zero
-        } else {
-            b
-        };
+        let b = if exact_sign(&self.d) == Sign::Zero { Sign::Zero } else { b };
         if a == Sign::Zero || b == Sign::Zero || a == b {
             return if a == Sign::Zero { b } else { a };
         }
@@ -57,14 +49,12 @@ impl Value {
         let (below, above, even) = if x == 0.0 {
             // A tie at the border belongs to 2^-142, whose last bit is 0.
             let inner = smallest.next_down();
-            return self.compare(-inner, -smallest).is_positive()
-                && self.compare(inner, smallest).is_negative();
+            return self.compare(-inner, -smallest).is_positive() && self.compare(inner, smallest).is_negative();
         } else {
             (x.next_down(), x.next_up(), x.to_bits() & 1 == 0)
         };
         let (low, high) = (self.compare(below, x), self.compare(x, above));
-        (low.is_positive() || (even && low == Sign::Zero))
-            && (high.is_negative() || (even && high == Sign::Zero))
+        (low.is_positive() || (even && low == Sign::Zero)) && (high.is_negative() || (even && high == Sign::Zero))
     }
 
     /// The rounded value; `None` beyond 2^200.
@@ -74,22 +64,14 @@ impl Value {
         }
         let negative = self.compare(0.0, 0.0).is_negative();
         let place = |bits: u64| {
-            if negative {
-                -f64::from_bits(bits)
-            } else {
-                f64::from_bits(bits)
-            }
+            if negative { -f64::from_bits(bits) } else { f64::from_bits(bits) }
         };
         // The bits of positive f64s are ordered as their values: bisection for the largest one whose lower middle is not beyond the value.
         let (mut low, mut high) = (power_of_two(-142).to_bits(), power_of_two(201).to_bits());
         while high - low > 1 {
             let middle = low + (high - low) / 2;
             let beyond = self.compare(place(middle - 1), place(middle));
-            let reached = if negative {
-                !beyond.is_positive()
-            } else {
-                !beyond.is_negative()
-            };
+            let reached = if negative { !beyond.is_positive() } else { !beyond.is_negative() };
             if reached { low = middle } else { high = middle }
         }
         // A tie stops on either neighbor; the even one is right.
@@ -127,21 +109,14 @@ pub fn midpoint(a: Point2, b: Point2) -> Place {
 /// (a + b)/2 + x (1 - delta)/2 (b - a).
 pub fn in_interval(a: Point2, b: Point2, delta: f64, x: f64) -> Place {
     let k = Exact::of(x) * (Exact::of(1.0) - Exact::of(delta));
-    each(|i| {
-        half()
-            * (Exact::of(a[i]) + Exact::of(b[i]) + k.clone() * (Exact::of(b[i]) - Exact::of(a[i])))
-    })
+    each(|i| half() * (Exact::of(a[i]) + Exact::of(b[i]) + k.clone() * (Exact::of(b[i]) - Exact::of(a[i]))))
 }
 
 /// The point at distance 2^k from a toward b.
 pub fn at_distance(a: Point2, b: Point2, k: i32) -> Place {
     let d = vector::<Exact>(a, b);
     let d2 = norm2(&d);
-    [0, 1].map(|i| Value {
-        p: Exact::of(a[i]),
-        q: Exact::scaled(1.0, k) * d[i].clone() / d2.clone(),
-        d: d2.clone(),
-    })
+    [0, 1].map(|i| Value { p: Exact::of(a[i]), q: Exact::scaled(1.0, k) * d[i].clone() / d2.clone(), d: d2.clone() })
 }
 
 /// o, exactly.
@@ -149,10 +124,7 @@ fn circumcenter_of(t: Corners) -> [Exact; 2] {
     let (c, d) = center::<Exact>(t);
     let two_d = d.clone() + d;
     let [x, y] = c;
-    [
-        Exact::of(t[0].x) + x / two_d.clone(),
-        Exact::of(t[0].y) + y / two_d,
-    ]
+    [Exact::of(t[0].x) + x / two_d.clone(), Exact::of(t[0].y) + y / two_d]
 }
 
 /// The circumcenter.
@@ -164,10 +136,7 @@ pub fn circumcenter(t: Corners) -> Place {
 pub fn in_disk(t: Corners, d2: f64, x: f64, y: f64) -> Place {
     let [ox, oy] = circumcenter_of(t);
     let k = Exact::of(1.0) - Exact::of(d2);
-    let (vx, vy) = (
-        Exact::of(t[0].x) - ox.clone(),
-        Exact::of(t[0].y) - oy.clone(),
-    );
+    let (vx, vy) = (Exact::of(t[0].x) - ox.clone(), Exact::of(t[0].y) - oy.clone());
     let (x, y) = (Exact::of(x), Exact::of(y));
     let px = ox + k.clone() * (x.clone() * vx.clone() - y.clone() * vy.clone());
     let py = oy + k * (x * vy + y * vx);
@@ -201,10 +170,7 @@ pub fn clamped_offcenter(t: Corners, kappa: f64, d2: f64) -> Place {
     let a = offcenter_of(t, kappa);
     let o = circumcenter_of(t);
     let away = [a[0].clone() - o[0].clone(), a[1].clone() - o[1].clone()];
-    let radius = [
-        Exact::of(t[0].x) - o[0].clone(),
-        Exact::of(t[0].y) - o[1].clone(),
-    ];
+    let radius = [Exact::of(t[0].x) - o[0].clone(), Exact::of(t[0].y) - o[1].clone()];
     let k = Exact::of(1.0) - Exact::of(d2);
     let r2 = norm2(&radius);
     if !exact_sign(&(norm2(&away) - k.square() * r2.clone())).is_positive() {
@@ -215,11 +181,7 @@ pub fn clamped_offcenter(t: Corners, kappa: f64, d2: f64) -> Place {
     let [ox, oy] = o;
     let [x, y] = away;
     let d = r2 / away2;
-    [(ox, x), (oy, y)].map(|(p, q)| Value {
-        p,
-        q: k.clone() * q,
-        d: d.clone(),
-    })
+    [(ox, x), (oy, y)].map(|(p, q)| Value { p, q: k.clone() * q, d: d.clone() })
 }
 
 #[cfg(test)]
@@ -228,20 +190,13 @@ mod tests {
 
     #[test]
     fn rounding_is_to_nearest_even_and_flushes() {
-        let of = |p: f64, q: f64, d: f64| Value {
-            p: Exact::of(p),
-            q: Exact::of(q),
-            d: Exact::of(d),
-        };
+        let of = |p: f64, q: f64, d: f64| Value { p: Exact::of(p), q: Exact::of(q), d: Exact::of(d) };
         assert_eq!(of(0.0, 1.0, 2.0).round(), Some(2f64.sqrt()));
         assert_eq!(of(0.0, -1.0, 2.0).round(), Some(-2f64.sqrt()));
         assert_eq!(of(0.1, 0.0, 0.0).round(), Some(0.1));
         assert_eq!(of(-3.0, 1.0, 9.0).round(), Some(0.0));
         assert_eq!(of(power_of_two(-143), 0.0, 0.0).round(), Some(0.0));
-        assert_eq!(
-            of(power_of_two(-142), 0.0, 0.0).round(),
-            Some(power_of_two(-142))
-        );
+        assert_eq!(of(power_of_two(-142), 0.0, 0.0).round(), Some(power_of_two(-142)));
         assert_eq!(of(power_of_two(201), 0.0, 0.0).round(), None);
         // 1 + 2^-53 is a tie: to the even neighbor 1; 1 + 3 2^-53: to 1 + 2^-51.
         let tie = |n: f64| rational(Exact::of(1.0) + Exact::of(n) * Exact::of(power_of_two(-53)));

@@ -9,12 +9,7 @@ pub fn words(seed: u64, step: u32, n: u32, stream: u32) -> [u32; 4] {
     for _ in 0..10 {
         let first = u64::from(a) * 0xD251_1F53;
         let second = u64::from(c) * 0xCD9E_8D57;
-        [a, b, c, d] = [
-            (second >> 32) as u32 ^ b ^ low,
-            second as u32,
-            (first >> 32) as u32 ^ d ^ high,
-            first as u32,
-        ];
+        [a, b, c, d] = [(second >> 32) as u32 ^ b ^ low, second as u32, (first >> 32) as u32 ^ d ^ high, first as u32];
         low = low.wrapping_add(0x9E37_79B9);
         high = high.wrapping_add(0xBB67_AE85);
     }
@@ -57,9 +52,6 @@ mod tests {
     /// Known answers of the reference implementation.
     #[test]
     fn known_answers() {
-        assert_eq!(
-            super::words(0, 0, 0, 0),
-            [0x6627_e8d5, 0xe169_c58d, 0xbc57_ac4c, 0x9b00_dbd8]
-        );
+        assert_eq!(super::words(0, 0, 0, 0), [0x6627_e8d5, 0xe169_c58d, 0xbc57_ac4c, 0x9b00_dbd8]);
     }
 }

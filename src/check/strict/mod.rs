@@ -15,8 +15,7 @@ use super::scale::Scale;
 use super::sight::{Aim, Arrival, Crossing, walk};
 use super::verdict::{Checked, Rule, broken, ensure};
 use crate::model::{
-    Choice, DeletionPolicy, DiskChoice, Point2, SegmentId, SmallAngles, Triangle, VertexId,
-    VertexOfTriangle,
+    Choice, DeletionPolicy, DiskChoice, Point2, SegmentId, SmallAngles, Triangle, VertexId, VertexOfTriangle,
 };
 use crate::trace::{Cause, Event, SkipReason, SplitKind, Why};
 use queue::{Badness, Entry, Queue};
@@ -42,12 +41,7 @@ impl Strict {
     /// The state at the start.
     pub fn new(replay: &Replay) -> Strict {
         let order = replay.ledger.parameters.order;
-        let mut strict = Strict {
-            skinny: Queue::new(order),
-            oversized: Queue::new(order),
-            current: None,
-            step: 0,
-        };
+        let mut strict = Strict { skinny: Queue::new(order), oversized: Queue::new(order), current: None, step: 0 };
         for t in replay.mesh.triangles() {
             strict.classify(replay, t);
         }
@@ -68,61 +62,32 @@ impl Strict {
         let (t, cause) = match event {
             Event::Remove { .. } => return Ok(()),
             Event::Skip { t, cause, .. } => (*t, *cause),
-            Event::Insert {
-                why: Why::Split { t, cause, .. },
-                ..
-            } => (*t, *cause),
-            Event::Insert {
-                why: Why::Free { cause },
-                destroyed,
-                ..
-            } => match destroyed.first() {
+            Event::Insert { why: Why::Split { t, cause, .. }, .. } => (*t, *cause),
+            Event::Insert { why: Why::Free { cause }, destroyed, .. } => match destroyed.first() {
                 Some(&t) => (t, *cause),
                 None => {
-                    return broken(
-                        Rule::Flood,
-                        "the bad triangle first",
-                        "no destroyed triangle",
-                    );
+                    return broken(Rule::Flood, "the bad triangle first", "no destroyed triangle");
                 }
             },
         };
         let slot = self.check_next(replay, t, cause)?;
-        let excuse = if cause == Cause::Skinny {
-            excusing_apex(replay, slot)
-        } else {
-            None
-        };
+        let excuse = if cause == Cause::Skinny { excusing_apex(replay, slot) } else { None };
         let reason = match event {
             Event::Skip { reason, .. } => Some(*reason),
             _ => None,
         };
         if excuse.is_some() || matches!(reason, Some(SkipReason::InputAngle { .. })) {
-            let expected = excuse.map(|apex| SkipReason::InputAngle {
-                apex: VertexId(apex),
-            });
-            return ensure(reason == expected, Rule::Skip, || {
-                (format!("{expected:?}"), format!("{reason:?}"))
-            });
+            let expected = excuse.map(|apex| SkipReason::InputAngle { apex: VertexId(apex) });
+            return ensure(reason == expected, Rule::Skip, || (format!("{expected:?}"), format!("{reason:?}")));
         }
         let ids = numbers(t);
         match event {
             Event::Skip { reason, .. } => self.check_skip(replay, slot, ids, *reason),
-            Event::Insert {
-                p,
-                why: Why::Free { .. },
-                ..
-            } => self.check_point(replay, self.type_a(replay, ids), *p),
-            Event::Insert {
-                p,
-                why: Why::Split { kind, s, a, .. },
-                ..
-            } => {
+            Event::Insert { p, why: Why::Free { .. }, .. } => self.check_point(replay, self.type_a(replay, ids), *p),
+            Event::Insert { p, why: Why::Split { kind, s, a, .. }, .. } => {
                 self.check_point(replay, self.type_a(replay, ids), *a)?;
                 let ends = s.map(|v| v.0);
-                ensure(replay.find_inside(ends).is_some(), Rule::S1, || {
-                    ("an edge of the mesh", format!("{ends:?}"))
-                })?;
+                ensure(replay.find_inside(ends).is_some(), Rule::S1, || ("an edge of the mesh", format!("{ends:?}")))?;
                 let type_c = matches!(kind, SplitKind::C { .. });
                 self.check_point(replay, self.on_segment(replay, ends, type_c), *p)
             }
@@ -152,9 +117,7 @@ impl Strict {
     fn check_next(&mut self, replay: &Replay, t: Triangle, cause: Cause) -> Checked<u32> {
         let slot = replay.triangle(t)?;
         let due = self.current.filter(|e| e.is_due(replay));
-        let expected = due
-            .or_else(|| self.skinny.first(replay))
-            .or_else(|| self.oversized.first(replay));
+        let expected = due.or_else(|| self.skinny.first(replay)).or_else(|| self.oversized.first(replay));
         let matches = match expected {
             Some(e) => e.t == slot && e.badness == badness(cause),
             // Sizes are known to the run alone: which such triangle is first is not checked.
@@ -162,31 +125,20 @@ impl Strict {
         };
         ensure(matches, Rule::Queue, || {
             let next = expected.map(|e| (canonical(replay.mesh.corners(e.t)), e.badness));
-            (
-                format!("the next bad triangle {next:?}"),
-                format!("{:?} {cause:?}", numbers(t)),
-            )
+            (format!("the next bad triangle {next:?}"), format!("{:?} {cause:?}", numbers(t)))
         })?;
         let entry = Entry::new(replay, slot, badness(cause));
         self.current = Some(entry);
         Ok(slot)
     }
 
-    fn check_point(
-        &self,
-        replay: &Replay,
-        chosen: Option<construct::Place>,
-        stored: Point2,
-    ) -> Checked {
+    fn check_point(&self, replay: &Replay, chosen: Option<construct::Place>, stored: Point2) -> Checked {
         let stored = replay.scale.place(stored)?;
         // A user's choice is not known here; `Checker` reports it as unchecked.
         let Some(chosen) = chosen else { return Ok(()) };
         ensure(construct::rounds_to(&chosen, stored), Rule::Choice, || {
             let units = |Scale { exponent }: Scale| format!("scaled by 2^{}", -exponent);
-            (
-                format!("{:?} ({})", construct::round(&chosen), units(replay.scale)),
-                format!("{stored:?}"),
-            )
+            (format!("{:?} ({})", construct::round(&chosen), units(replay.scale)), format!("{stored:?}"))
         })
     }
 
@@ -213,24 +165,15 @@ impl Strict {
                 construct::in_disk(t, p.d2, x, y)
             }
             DiskChoice::Offcenter => construct::offcenter(from(shortest_edge(t, ids)), kappa),
-            DiskChoice::ClampedOffcenter => {
-                construct::clamped_offcenter(from(shortest_edge(t, ids)), kappa, p.d2)
-            }
+            DiskChoice::ClampedOffcenter => construct::clamped_offcenter(from(shortest_edge(t, ids)), kappa, p.d2),
         })
     }
 
     /// The point that splits a subsegment; `None` for a user's.
-    fn on_segment(
-        &self,
-        replay: &Replay,
-        [u, v]: [u32; 2],
-        type_c: bool,
-    ) -> Option<construct::Place> {
+    fn on_segment(&self, replay: &Replay, [u, v]: [u32; 2], type_c: bool) -> Option<construct::Place> {
         let p = &replay.ledger.parameters;
-        let is_apex = |v: u32| {
-            p.small_angles == SmallAngles::Shells
-                && replay.ledger.apexes.get(v as usize) == Some(&true)
-        };
+        let is_apex =
+            |v: u32| p.small_angles == SmallAngles::Shells && replay.ledger.apexes.get(v as usize) == Some(&true);
         let [pu, pv] = [u, v].map(|v| replay.mesh.at(v));
         match (is_apex(u), is_apex(v)) {
             (true, true) => return Some(construct::midpoint(pu, pv)),
@@ -241,11 +184,7 @@ impl Strict {
                 return Some(construct::at_distance(apex, other, k));
             }
         }
-        let (choice, delta) = if type_c {
-            (p.choice_c, p.mu)
-        } else {
-            (p.choice_b, p.d1)
-        };
+        let (choice, delta) = if type_c { (p.choice_c, p.mu) } else { (p.choice_b, p.d1) };
         let seed = p.seed.unwrap_or(0);
         Some(match choice {
             Choice::User => return None,
@@ -254,27 +193,17 @@ impl Strict {
                 let from_u = match p.extreme.unwrap_or(VertexOfTriangle::First) {
                     VertexOfTriangle::First => true,
                     VertexOfTriangle::Newest => false,
-                    VertexOfTriangle::Seeded => {
-                        draw::words(seed, self.step, 0, 1)[0].is_multiple_of(2)
-                    }
+                    VertexOfTriangle::Seeded => draw::words(seed, self.step, 0, 1)[0].is_multiple_of(2),
                 };
                 let (w, other) = if from_u { (pu, pv) } else { (pv, pu) };
                 construct::in_interval(w, other, delta, -1.0)
             }
-            Choice::Random => {
-                construct::in_interval(pu, pv, delta, draw::interval(seed, self.step))
-            }
+            Choice::Random => construct::in_interval(pu, pv, delta, draw::interval(seed, self.step)),
         })
     }
 
     /// That a triangle had to be skipped for this reason.
-    fn check_skip(
-        &self,
-        replay: &mut Replay,
-        slot: u32,
-        ids: [u32; 3],
-        reason: SkipReason,
-    ) -> Checked {
+    fn check_skip(&self, replay: &mut Replay, slot: u32, ids: [u32; 3], reason: SkipReason) -> Checked {
         let own = self.forced_skip(replay, slot, ids);
         match own {
             Forced::Unknown => Ok(()),
@@ -298,15 +227,8 @@ impl Strict {
         let (u, v) = (replay.mesh.origin(s), replay.mesh.target(s));
         let ends = [u.min(v), u.max(v)];
         let witnesses = seen_witnesses(replay, s);
-        if replay
-            .ledger
-            .parameters
-            .max_splits
-            .is_some_and(|limit| replay.ledger.splits[segment as usize] >= limit)
-        {
-            return Forced::Skip(SkipReason::SplitLimit {
-                segment: SegmentId(segment),
-            });
+        if replay.ledger.parameters.max_splits.is_some_and(|limit| replay.ledger.splits[segment as usize] >= limit) {
+            return Forced::Skip(SkipReason::SplitLimit { segment: SegmentId(segment) });
         }
         let Some(p) = self.on_segment(replay, ends, !witnesses.is_empty()) else {
             return Forced::Unknown;
@@ -315,10 +237,7 @@ impl Strict {
         let Some(p) = construct::round(&p) else {
             return Forced::Skip(SkipReason::Resolution);
         };
-        if p == replay.mesh.at(u)
-            || p == replay.mesh.at(v)
-            || !splits_well(replay, s, p, &witnesses)
-        {
+        if p == replay.mesh.at(u) || p == replay.mesh.at(v) || !splits_well(replay, s, p, &witnesses) {
             return Forced::Skip(SkipReason::Resolution);
         }
         Forced::Insertion
@@ -339,23 +258,16 @@ fn excusing_apex(replay: &Replay, t: u32) -> Option<u32> {
     let k = shortest_edge(replay.mesh.places(t), replay.mesh.corners(t)) as u32;
     let e = 4 * t + k;
     let by_rung = replay.ledger.rungs[replay.mesh.origin(e) as usize].map(|r| r.0);
-    [by_rung, Some(replay.mesh.apex(e))]
-        .into_iter()
-        .flatten()
-        .find(|&apex| replay.excuses(t, apex))
+    [by_rung, Some(replay.mesh.apex(e))].into_iter().flatten().find(|&apex| replay.excuses(t, apex))
 }
 
 /// The vertices that stay, strictly in Diam(s), that see an interior point of s.
 fn seen_witnesses(replay: &mut Replay, s: u32) -> Vec<u32> {
     let mesh = &replay.mesh;
     let ends = [mesh.origin(s), mesh.target(s)].map(|v| mesh.at(v));
-    replay
-        .search
-        .vertices_in(mesh, s, &[ends], Crossing::Unconstrained);
+    replay.search.vertices_in(mesh, s, &[ends], Crossing::Unconstrained);
     let mut found = std::mem::take(&mut replay.search.found);
-    found.retain(|&w| {
-        !mesh.vertices[w as usize].is_free() && replay.search.sees(mesh, w, s, Aim::Interior)
-    });
+    found.retain(|&w| !mesh.vertices[w as usize].is_free() && replay.search.sees(mesh, w, s, Aim::Interior));
     found
 }
 
@@ -363,20 +275,12 @@ fn seen_witnesses(replay: &mut Replay, s: u32) -> Vec<u32> {
 fn splits_well(replay: &mut Replay, s: u32, p: Point2, witnesses: &[u32]) -> bool {
     let mesh = &replay.mesh;
     let search = &mut replay.search;
-    if !witnesses.is_empty()
-        && !witnesses
-            .iter()
-            .any(|&w| search.sees(mesh, w, s, Aim::At(p)))
-    {
+    if !witnesses.is_empty() && !witnesses.iter().any(|&w| search.sees(mesh, w, s, Aim::At(p))) {
         return false;
     }
     let [u, v] = [mesh.origin(s), mesh.target(s)].map(|v| mesh.at(v));
     let policy = replay.ledger.parameters.deletion;
-    let crosses = if policy == DeletionPolicy::Disk {
-        Crossing::All
-    } else {
-        Crossing::Unconstrained
-    };
+    let crosses = if policy == DeletionPolicy::Disk { Crossing::All } else { Crossing::Unconstrained };
     search.vertices_in(mesh, s, &[[u, v], [u, p], [p, v]], crosses);
     let mut doomed = search.found.clone();
     doomed.retain(|&w| {
@@ -388,19 +292,14 @@ fn splits_well(replay: &mut Replay, s: u32, p: Point2, witnesses: &[u32]) -> boo
             }
     });
     doomed.sort_unstable();
-    [s, mesh.beyond(s)]
-        .into_iter()
-        .filter(|&e| mesh.inside(e).is_some())
-        .all(|e| {
-            let [from, to] = [mesh.origin(e), mesh.target(e)].map(|v| mesh.at(v));
-            let Some(apex) = apex_after(replay, e, &doomed) else {
-                return false;
-            };
-            let apex = replay.mesh.at(apex);
-            orient(from, p, apex).is_positive()
-                && orient(p, to, apex).is_positive()
-                && in_conflict([from, to, apex], p)
-        })
+    [s, mesh.beyond(s)].into_iter().filter(|&e| mesh.inside(e).is_some()).all(|e| {
+        let [from, to] = [mesh.origin(e), mesh.target(e)].map(|v| mesh.at(v));
+        let Some(apex) = apex_after(replay, e, &doomed) else {
+            return false;
+        };
+        let apex = replay.mesh.at(apex);
+        orient(from, p, apex).is_positive() && orient(p, to, apex).is_positive() && in_conflict([from, to, apex], p)
+    })
 }
 
 /// The apex of the triangle at e once the doomed vertices are gone: of the corners of all triangles that vanish, those that see e, the one whose circle
@@ -432,10 +331,7 @@ fn apex_after(replay: &Replay, e: u32, doomed: &[u32]) -> Option<u32> {
     corners.dedup();
     let [u, v] = [mesh.origin(e), mesh.target(e)].map(|v| mesh.at(v));
     let mut best = None;
-    for w in corners
-        .into_iter()
-        .filter(|&w| !is_doomed(w) && mesh.vertices[w as usize].kind != Kind::Deleted)
-    {
+    for w in corners.into_iter().filter(|&w| !is_doomed(w) && mesh.vertices[w as usize].kind != Kind::Deleted) {
         let at = mesh.at(w);
         let closer = best.is_none_or(|b| in_conflict([u, v, mesh.at(b)], at));
         if orient(u, v, at).is_positive() && closer && search.sees(mesh, w, e, Aim::Interior) {

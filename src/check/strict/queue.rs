@@ -94,10 +94,7 @@ pub struct Queue {
 impl Queue {
     /// An empty queue.
     pub fn new(order: QueueOrder) -> Queue {
-        Queue {
-            order,
-            heap: Vec::new(),
-        }
+        Queue { order, heap: Vec::new() }
     }
 
     fn precedes(&self, a: &Entry, b: &Entry) -> bool {

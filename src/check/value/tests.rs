@@ -10,9 +10,7 @@ fn shape<N: Number>(a: f64, b: f64, c: f64, d: f64) -> N {
 fn bounds_never_lie() {
     let mut state = 1u64;
     let mut random = move || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
     };
     let (mut decided, mut open) = (0, 0);
@@ -29,17 +27,12 @@ fn bounds_never_lie() {
             None => open += 1,
         }
     }
-    assert!(
-        decided > 10_000 && open > 1_000,
-        "{decided} decided, {open} open"
-    );
+    assert!(decided > 10_000 && open > 1_000, "{decided} decided, {open} open");
 }
 
 #[test]
 fn small_integers_are_exact() {
-    let zero = |a: f64, b: f64| {
-        (Approx::of(a) - Approx::of(b)).square() - (Approx::of(b) - Approx::of(a)).square()
-    };
+    let zero = |a: f64, b: f64| (Approx::of(a) - Approx::of(b)).square() - (Approx::of(b) - Approx::of(a)).square();
     assert_eq!(zero(3.0, 8.0).sign(), Some(Sign::Zero));
     assert_eq!(zero(0.1, 0.3).sign(), None);
     assert_eq!(Approx::scaled(1.0, 2000).sign(), None);

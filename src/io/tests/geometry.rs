@@ -6,12 +6,7 @@ use crate::model::{Fill, Point2};
 
 /// Ends and toggling of the segments, and the notes.
 fn summary(input: &Input) -> (Vec<(u32, u32, bool)>, Vec<&str>) {
-    let segments = input
-        .pslg
-        .segments
-        .iter()
-        .map(|s| (s.ends[0].0, s.ends[1].0, s.toggles))
-        .collect();
+    let segments = input.pslg.segments.iter().map(|s| (s.ends[0].0, s.ends[1].0, s.toggles)).collect();
     (segments, input.notes.iter().map(|n| &*n.text).collect())
 }
 
@@ -36,21 +31,14 @@ fn neighbours_stay_filled_and_holes_are_holes() {
     let (segments, notes) = summary(&input);
     assert_eq!((segments[1], segments.len()), ((1, 2, false), 10));
     assert_eq!(segments.iter().filter(|s| s.2).count(), 9);
-    assert_eq!(
-        notes,
-        [
-            "points merged with an earlier equal one: 2",
-            "segments merged with an earlier equal one: 1"
-        ]
-    );
+    assert_eq!(notes, ["points merged with an earlier equal one: 2", "segments merged with an earlier equal one: 1"]);
     let at = |x, y| inside(&input, Point2::new(x, y));
     assert!(at(1.0, 1.25) && at(3.0, 1.25) && !at(3.25, 0.75) && !at(5.0, 1.25));
 }
 
 #[test]
 fn island_that_fills_its_lake_is_filled() {
-    let wkt =
-        b"POLYGON((0 0,9 0,9 9,0 9,0 0),(3 3,6 3,6 6,3 6,3 3))\nPOLYGON((3 3,3 6,6 6,6 3,3 3))";
+    let wkt = b"POLYGON((0 0,9 0,9 9,0 9,0 0),(3 3,6 3,6 6,3 6,3 3))\nPOLYGON((3 3,3 6,6 6,6 3,3 3))";
     let input = parse_wkt(wkt).unwrap();
     assert!(inside(&input, Point2::new(4.5, 4.0)) && inside(&input, Point2::new(1.0, 1.5)));
     assert_eq!(input.pslg.segments.len(), 8);
@@ -101,10 +89,7 @@ fn bad_wkt() {
                 b"\n CIRCLE(0 0)",
                 "WKT line 2 column 2: geometry 1: `CIRCLE(0` stands where a geometry such as POLYGON is due; the geometries read here are POINT, LINESTRING, POLYGON, MULTIPOINT, MULTILINESTRING, MULTIPOLYGON, GEOMETRYCOLLECTION",
             ),
-            (
-                b"POINT(1)",
-                "WKT line 1 column 8: geometry 1, POINT: `)` stands where a number is due",
-            ),
+            (b"POINT(1)", "WKT line 1 column 8: geometry 1, POINT: `)` stands where a number is due"),
             (
                 b"POINT(1 nan)",
                 "WKT line 1 column 9: geometry 1, POINT: `nan` is not a finite number; write a decimal number such as -1.5e3",
@@ -113,10 +98,7 @@ fn bad_wkt() {
                 b"POINT(1\n 1e400)",
                 "WKT line 2 column 2: geometry 1, POINT: `1e400` is not a finite number; write a decimal number such as -1.5e3",
             ),
-            (
-                b"POINT(1 2 3 4 5)",
-                "WKT line 1 column 15: geometry 1, POINT: `5)` stands where `,` or `)` is due",
-            ),
+            (b"POINT(1 2 3 4 5)", "WKT line 1 column 15: geometry 1, POINT: `5)` stands where `,` or `)` is due"),
             (
                 b"LINESTRING(0 0)",
                 "WKT line 1 column 16: geometry 1, LINESTRING: the polyline that ends here has fewer than 2 positions; give it at least 2",
@@ -141,19 +123,11 @@ fn bad_wkt() {
                 b"POINT(0 0) 7",
                 "WKT line 1 column 12: geometry 2: `7` stands where a geometry such as POLYGON is due; the geometries read here are POINT, LINESTRING, POLYGON, MULTIPOINT, MULTILINESTRING, MULTIPOLYGON, GEOMETRYCOLLECTION",
             ),
-            (
-                b"POINT(0 \xff)",
-                "WKT line 1 column 9: a byte that is not UTF-8; save the file as plain text in UTF-8",
-            ),
+            (b"POINT(0 \xff)", "WKT line 1 column 9: a byte that is not UTF-8; save the file as plain text in UTF-8"),
         ],
     );
     let deep = "GEOMETRYCOLLECTION(".repeat(100_000);
-    assert!(
-        parse_wkt(deep.as_bytes())
-            .unwrap_err()
-            .problem
-            .contains("too deeply")
-    );
+    assert!(parse_wkt(deep.as_bytes()).unwrap_err().problem.contains("too deeply"));
 }
 
 #[test]
@@ -166,14 +140,7 @@ fn geojson_features() {
            [1, 1]]},
         {"type": "MultiPoint", "coordinates": []}, {"type": "Point", "coordinates": [ ]}]}}]}"#;
     let input = parse_geojson(text).unwrap();
-    assert_eq!(
-        input.pslg.points,
-        [
-            Point2::new(1.5, 0.0),
-            Point2::new(0.0, 0.0),
-            Point2::new(1.0, 1.0)
-        ]
-    );
+    assert_eq!(input.pslg.points, [Point2::new(1.5, 0.0), Point2::new(0.0, 0.0), Point2::new(1.0, 1.0)]);
     assert_eq!(input.lines.points, [3, 5, 6]);
     assert_eq!(input.pslg.segments.len(), 1);
     assert_eq!(input.pslg.fill, Fill::Seeds);
@@ -185,18 +152,9 @@ fn bad_geojson() {
     refuses(
         parse_geojson,
         &[
-            (
-                b"",
-                "GeoJSON line 1 column 1: the file ends where an object is due; the file is truncated",
-            ),
-            (
-                b"[1, 2]",
-                "GeoJSON line 1 column 1: `[1,` stands where an object is due",
-            ),
-            (
-                b"{\"type\": \"Point\"}",
-                "GeoJSON line 1 column 1: a Point without \"coordinates\"",
-            ),
+            (b"", "GeoJSON line 1 column 1: the file ends where an object is due; the file is truncated"),
+            (b"[1, 2]", "GeoJSON line 1 column 1: `[1,` stands where an object is due"),
+            (b"{\"type\": \"Point\"}", "GeoJSON line 1 column 1: a Point without \"coordinates\""),
             (
                 b"{\"type\": \"Topology\"}",
                 "GeoJSON line 1 column 1: the type `Topology` is unknown; GeoJSON has FeatureCollection, Feature, GeometryCollection, Point, LineString, Polygon and their Multi forms",
@@ -213,14 +171,8 @@ fn bad_geojson() {
                 b"{\"type\": \"Point\", \"coordinates\": [1]}",
                 "GeoJSON line 1 column 37: the position that ends here has fewer than 2 numbers; give x and y",
             ),
-            (
-                b"{\"type\": \"Point\", \"coordinates\": [1, NaN]}",
-                "GeoJSON line 1 column 38: expected value",
-            ),
-            (
-                b"{\"type\": \"Point\", \"coordinates\": [1, 2]} x",
-                "GeoJSON line 1 column 42: trailing characters",
-            ),
+            (b"{\"type\": \"Point\", \"coordinates\": [1, NaN]}", "GeoJSON line 1 column 38: expected value"),
+            (b"{\"type\": \"Point\", \"coordinates\": [1, 2]} x", "GeoJSON line 1 column 42: trailing characters"),
             (
                 b"{\"type\": \"Feature\",\n\"geometry\": {\"type\": 7}}",
                 "GeoJSON line 2 column 22: feature 1: invalid type: integer `7`, expected a string",
@@ -232,17 +184,10 @@ fn bad_geojson() {
         ],
     );
     let deep = "[".repeat(100_000);
-    assert!(
-        parse_geojson(format!("{{\"type\":\"Point\",\"coordinates\":{deep}").as_bytes()).is_err()
-    );
+    assert!(parse_geojson(format!("{{\"type\":\"Point\",\"coordinates\":{deep}").as_bytes()).is_err());
     let deep = "{\"type\":\"Feature\",\"geometry\":".repeat(100);
     let closed = format!("{deep}null{}", "}".repeat(100));
-    assert!(
-        parse_geojson(closed.as_bytes())
-            .unwrap_err()
-            .problem
-            .contains("too deeply")
-    );
+    assert!(parse_geojson(closed.as_bytes()).unwrap_err().problem.contains("too deeply"));
 }
 
 /// The corpus has the same graphs as WKT and as `.poly`.

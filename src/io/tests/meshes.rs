@@ -7,10 +7,7 @@ use crate::model::{Mesh2, VertexId};
 
 /// A mesh without lines, for comparison.
 fn plain(m: ForeignMesh) -> ForeignMesh {
-    ForeignMesh {
-        lines: MeshLines::default(),
-        ..m
-    }
+    ForeignMesh { lines: MeshLines::default(), ..m }
 }
 
 /// What `.msh` carries of a mesh.
@@ -28,20 +25,10 @@ fn vtu_round_trip() {
     let mut mesh = sample();
     let bytes = write::vtu(&mesh);
     let read = parse_vtu(&bytes).unwrap();
-    assert_eq!(
-        (
-            read.lines.points[0],
-            read.lines.triangles.len(),
-            read.lines.edges.len()
-        ),
-        (95, 4, 7)
-    );
+    assert_eq!((read.lines.points[0], read.lines.triangles.len(), read.lines.edges.len()), (95, 4, 7));
     assert_eq!(plain(read), ForeignMesh::from(&mesh));
     mesh.triangle_attributes.clear();
-    assert_eq!(
-        plain(parse_vtu(&write::vtu(&mesh)).unwrap()),
-        ForeignMesh::from(&mesh)
-    );
+    assert_eq!(plain(parse_vtu(&write::vtu(&mesh)).unwrap()), ForeignMesh::from(&mesh));
     survives(parse_vtu, &bytes);
 }
 
@@ -50,20 +37,12 @@ fn msh_round_trip() {
     let mut mesh = sample();
     for version in [MshVersion::V41, MshVersion::V22] {
         let bytes = write::msh(&mesh, version);
-        assert_eq!(
-            plain(parse_msh(&bytes).unwrap()),
-            bare_vertices(&mesh),
-            "{version:?}"
-        );
+        assert_eq!(plain(parse_msh(&bytes).unwrap()), bare_vertices(&mesh), "{version:?}");
         survives(parse_msh, &bytes);
     }
     mesh.triangle_attributes.clear();
     for version in [MshVersion::V41, MshVersion::V22] {
-        assert_eq!(
-            plain(parse_msh(&write::msh(&mesh, version)).unwrap()),
-            bare_vertices(&mesh),
-            "{version:?}"
-        );
+        assert_eq!(plain(parse_msh(&write::msh(&mesh, version)).unwrap()), bare_vertices(&mesh), "{version:?}");
     }
 }
 
@@ -79,23 +58,13 @@ fn msh_groups() {
 fn off_round_trip() {
     let mesh = sample();
     let bytes = write::off(&mesh);
-    let due = ForeignMesh {
-        points: mesh.points.clone(),
-        triangles: mesh.triangles.clone(),
-        ..ForeignMesh::default()
-    };
+    let due = ForeignMesh { points: mesh.points.clone(), triangles: mesh.triangles.clone(), ..ForeignMesh::default() };
     assert_eq!(plain(parse_off(&bytes).unwrap()), due);
     survives(parse_off, &bytes);
     let read = parse_off(b"OFF 3 1 0\n0 0 2.5\n1 0 2.5\n\n0 1 2.5\n3 2 1 0 255 0 0\n").unwrap();
     assert_eq!(read.triangles, [[2, 1, 0].map(VertexId)]);
-    assert_eq!(
-        (read.notes[0].line, &*read.notes[0].text),
-        (2, "all vertices have z = 2.5, which is left out")
-    );
-    assert_eq!(
-        (read.lines.points, read.lines.triangles),
-        (vec![2, 3, 5], vec![6])
-    );
+    assert_eq!((read.notes[0].line, &*read.notes[0].text), (2, "all vertices have z = 2.5, which is left out"));
+    assert_eq!((read.lines.points, read.lines.triangles), (vec![2, 3, 5], vec![6]));
 }
 
 #[test]
@@ -103,18 +72,12 @@ fn bad_off() {
     refuses(
         parse_off,
         &[
-            (
-                b"",
-                ".off: header: the file ends before it; the file is truncated or declares too many elements",
-            ),
+            (b"", ".off: header: the file ends before it; the file is truncated or declares too many elements"),
             (
                 b"COFF\n1 0 0\n",
                 ".off line 1: header: the file starts with `COFF`; it must start with the word OFF; its variants are not read",
             ),
-            (
-                b"OFF BINARY\n1",
-                ".off line 1: header: the encoding is BINARY; write the file as text",
-            ),
+            (b"OFF BINARY\n1", ".off line 1: header: the encoding is BINARY; write the file as text"),
             (
                 b"OFF\n-1 0 0\n",
                 ".off line 2 column 1: counts: the number of vertices is -1; a count cannot be negative",
@@ -149,11 +112,7 @@ fn bad_msh() {
     let good = format!("{head}2\n9 1 2 4 1 1 5\n3 2 2 6 1 1 5 7\n$EndElements\n");
     let mesh = parse_msh(good.as_bytes()).unwrap();
     assert_eq!(
-        (
-            mesh.triangles[0],
-            mesh.edges[0].marker,
-            mesh.triangle_attributes[0]
-        ),
+        (mesh.triangles[0], mesh.edges[0].marker, mesh.triangle_attributes[0]),
         ([0, 1, 2].map(VertexId), 4, 6.0)
     );
     refuses(
@@ -189,9 +148,7 @@ fn bad_msh() {
             ),
         ],
     );
-    let then = |rest: &str, sentence: &str| {
-        refuses(parse_msh, &[(format!("{head}{rest}").as_bytes(), sentence)])
-    };
+    let then = |rest: &str, sentence: &str| refuses(parse_msh, &[(format!("{head}{rest}").as_bytes(), sentence)]);
     then(
         "1\n1 2 0 1 5 6\n$EndElements\n",
         ".msh line 12: element 1: there is no node 6; correct the element or add the node",
@@ -229,11 +186,7 @@ fn vtu_encodings() {
         "AQAAAAU=",
     ];
     let inline = blocks.map(|b| format!("format='binary'>\n {b}\n</DataArray>"));
-    let inline = wrap(
-        "byte_order='LittleEndian'",
-        inline.each_ref().map(|s| &**s),
-        "",
-    );
+    let inline = wrap("byte_order='LittleEndian'", inline.each_ref().map(|s| &**s), "");
     let due = plain(parse_off(b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").unwrap());
     let read = |bytes: &[u8]| plain(parse_vtu(bytes).unwrap_or_else(|e| panic!("{e}")));
     assert_eq!(read(inline.as_bytes()), due);
@@ -243,10 +196,7 @@ fn vtu_encodings() {
         at += b.len();
         format!("format='appended' offset='{}'/>", at - b.len())
     });
-    let tail = format!(
-        "<AppendedData encoding='base64'>\n_{}\n</AppendedData>",
-        blocks.concat()
-    );
+    let tail = format!("<AppendedData encoding='base64'>\n_{}\n</AppendedData>", blocks.concat());
     let appended = wrap("", offsets.each_ref().map(|s| &**s), &tail);
     assert_eq!(read(appended.as_bytes()), due);
     // Raw, big endian, lengths of 64 bits.
@@ -280,16 +230,9 @@ fn bad_vtu() {
     let text = String::from_utf8(write::vtu(&sample())).unwrap();
     let with = |from: &str, to: &str, sentence: &str| {
         assert!(text.contains(from), "{from}");
-        refuses(
-            parse_vtu,
-            &[(text.replacen(from, to, 1).as_bytes(), sentence)],
-        );
+        refuses(parse_vtu, &[(text.replacen(from, to, 1).as_bytes(), sentence)]);
     };
-    with(
-        "<VTKFile",
-        "<vtk",
-        ".vtu line 1: the file does not start with the tag VTKFile",
-    );
+    with("<VTKFile", "<vtk", ".vtu line 1: the file does not start with the tag VTKFile");
     with(
         "\"UnstructuredGrid\"",
         "\"PolyData\"",
@@ -310,26 +253,14 @@ fn bad_vtu() {
         "NumberOfPoints=\"-6\"",
         ".vtu line 4: Piece: NumberOfPoints is -6; it must be a whole number of at most 2147483647",
     );
-    with(
-        "\n1 0.1 0\n",
-        "\n1 1e400 0\n",
-        ".vtu line 96: DataArray \"Points\": `1e400` is not a finite number",
-    );
+    with("\n1 0.1 0\n", "\n1 1e400 0\n", ".vtu line 96: DataArray \"Points\": `1e400` is not a finite number");
     with(
         "\n1 0.1 0\n",
         "\n1 0.1 1\n",
         ".vtu line 96: vertex 1: z is 1.0, but 0.0 before; only planar meshes are read here",
     );
-    with(
-        "\n0 1 3\n",
-        "\n0 1 6\n",
-        ".vtu line 105: cell 0: there is no vertex 6.0; vertices are numbered from 0",
-    );
-    with(
-        "\n0 1 3\n",
-        "\n0 -1 3\n",
-        ".vtu line 105: cell 0: there is no vertex -1.0; vertices are numbered from 0",
-    );
+    with("\n0 1 3\n", "\n0 1 6\n", ".vtu line 105: cell 0: there is no vertex 6.0; vertices are numbered from 0");
+    with("\n0 1 3\n", "\n0 -1 3\n", ".vtu line 105: cell 0: there is no vertex -1.0; vertices are numbered from 0");
     with(
         "Name=\"offsets\"",
         "Name=\"ofsets\"",
@@ -340,9 +271,5 @@ fn bad_vtu() {
         "\n5\n9\n5\n5\n3\n",
         ".vtu line 106: cell 1: its type is 9 and it has 3 corners; only vertices (1), lines (3) and triangles (5) are read here",
     );
-    with(
-        "</VTKFile>",
-        "</VTKFile",
-        ".vtu line 146: the file ends within a tag; this is no well-formed XML",
-    );
+    with("</VTKFile>", "</VTKFile", ".vtu line 146: the file ends within a tag; this is no well-formed XML");
 }

@@ -38,8 +38,7 @@ fn survives<T>(read: impl Fn(&[u8]) -> Result<T, ReadError>, good: &[u8]) {
 /// The folder of real inputs; says so where it is absent.
 fn data() -> Option<PathBuf> {
     let default = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data");
-    let data =
-        std::env::var_os("ORTHOBALL_DATA").map_or_else(|| PathBuf::from(default), PathBuf::from);
+    let data = std::env::var_os("ORTHOBALL_DATA").map_or_else(|| PathBuf::from(default), PathBuf::from);
     let there = data.join("pslg/as_poly").is_dir();
     if !there {
         println!("skipped: no corpus at {}", data.display());
@@ -50,15 +49,7 @@ fn data() -> Option<PathBuf> {
 /// Two regions side by side with all that a mesh may carry.
 fn sample() -> Mesh2 {
     let ends = |a, b| -> Edge { [VertexId(a), VertexId(b)] };
-    let border = [
-        (0, 1, 5),
-        (0, 3, 5),
-        (1, 2, -7),
-        (1, 4, 0),
-        (2, 5, 5),
-        (3, 4, 5),
-        (4, 5, i32::MAX),
-    ];
+    let border = [(0, 1, 5), (0, 3, 5), (1, 2, -7), (1, 4, 0), (2, 5, 5), (3, 4, 5), (4, 5, i32::MAX)];
     Mesh2 {
         points: vec![
             Point2::new(0.0, 0.0),
@@ -79,18 +70,12 @@ fn sample() -> Mesh2 {
         point_markers: vec![1, 0, -3, 4, 0, 9],
         attributes: (0..12).map(|k| f64::from(k) * 0.1).collect(),
         attributes_per_point: 2,
-        triangles: [[0, 1, 3], [1, 2, 4], [1, 4, 3], [2, 5, 4]]
-            .map(|t| t.map(VertexId))
-            .to_vec(),
+        triangles: [[0, 1, 3], [1, 2, 4], [1, 4, 3], [2, 5, 4]].map(|t| t.map(VertexId)).to_vec(),
         triangle_attributes: vec![1.0, 2.5, 1.0, -4.0],
         edges: border
             .iter()
             .zip(0..)
-            .map(|(&(a, b, marker), i)| MeshEdge {
-                ends: ends(a, b),
-                marker,
-                segment: SegmentId(i),
-            })
+            .map(|(&(a, b, marker), i)| MeshEdge { ends: ends(a, b), marker, segment: SegmentId(i) })
             .collect(),
     }
 }

@@ -26,35 +26,13 @@ fn everything_is_drawn() {
     };
     for colour in COLOURS {
         // The legend's bars have the same colours, but no path.
-        assert_eq!(
-            of("fill", colour)
-                .iter()
-                .map(|d| d.matches('z').count())
-                .collect::<Vec<_>>(),
-            [1],
-            "{colour}"
-        );
+        assert_eq!(of("fill", colour).iter().map(|d| d.matches('z').count()).collect::<Vec<_>>(), [1], "{colour}");
     }
     let dots = |colour: &str| {
-        of("stroke", colour)
-            .iter()
-            .filter(|d| d.ends_with("h0"))
-            .map(|d| d.matches('M').count())
-            .sum::<usize>()
+        of("stroke", colour).iter().filter(|d| d.ends_with("h0")).map(|d| d.matches('M').count()).sum::<usize>()
     };
-    assert_eq!(
-        (
-            dots("#18212b"),
-            dots("#f0a202"),
-            dots("#e4572e"),
-            dots("#fff")
-        ),
-        (4, 1, 1, 6)
-    );
-    let lines: usize = of("stroke-width", "2.2")
-        .iter()
-        .map(|d| d.matches('M').count())
-        .sum();
+    assert_eq!((dots("#18212b"), dots("#f0a202"), dots("#e4572e"), dots("#fff")), (4, 1, 1, 6));
+    let lines: usize = of("stroke-width", "2.2").iter().map(|d| d.matches('M').count()).sum();
     assert_eq!(lines, 7);
     assert!(picture.contains(">4 triangles, 6 vertices, smallest angle "));
 }
@@ -64,10 +42,7 @@ fn everything_is_drawn() {
 fn nothing_is_infinite() {
     let mut huge = sample();
     for p in &mut huge.points {
-        *p = Point2::new(
-            p.x.min(3.0) * 1e307 * 1.7 - 1.7e308,
-            if p.y > 0.5 { 1.7e308 } else { -1.7e308 },
-        );
+        *p = Point2::new(p.x.min(3.0) * 1e307 * 1.7 - 1.7e308, if p.y > 0.5 { 1.7e308 } else { -1.7e308 });
     }
     let point = Mesh2 {
         points: vec![Point2::new(1.0, 2.0)],

@@ -31,15 +31,8 @@ pub fn msh(mesh: &Mesh2, version: MshVersion) -> Vec<u8> {
             Groups::new("region", 2, mesh.triangle_attributes.iter().copied())
         },
     ];
-    let number = if version == MshVersion::V41 {
-        "4.1"
-    } else {
-        "2.2"
-    };
-    text(
-        &mut out,
-        &format!("$MeshFormat\n{number} 0 8\n$EndMeshFormat\n"),
-    );
+    let number = if version == MshVersion::V41 { "4.1" } else { "2.2" };
+    text(&mut out, &format!("$MeshFormat\n{number} 0 8\n$EndMeshFormat\n"));
     names(&mut out, &groups);
     match version {
         MshVersion::V41 => {
@@ -67,22 +60,13 @@ struct Groups {
 impl Groups {
     /// All elements in one group.
     fn one(name: &str, dimension: u8, elements: usize) -> Groups {
-        let names = if elements == 0 {
-            BTreeMap::new()
-        } else {
-            BTreeMap::from([(1, name.to_string())])
-        };
-        Groups {
-            dimension,
-            names,
-            tags: vec![1; elements],
-        }
+        let names = if elements == 0 { BTreeMap::new() } else { BTreeMap::from([(1, name.to_string())]) };
+        Groups { dimension, names, tags: vec![1; elements] }
     }
 
     /// The elements by their numbers.
     fn new(name: &str, dimension: u8, numbers: impl Iterator<Item = f64> + Clone) -> Groups {
-        let whole =
-            |x: f64| Some(x as i32).filter(|&t| t > 0 && f64::from(t).to_bits() == x.to_bits());
+        let whole = |x: f64| Some(x as i32).filter(|&t| t > 0 && f64::from(t).to_bits() == x.to_bits());
         let named = |x: f64| {
             let mut text = format!("{name} ").into_bytes();
             push_float(&mut text, x);
@@ -108,11 +92,7 @@ impl Groups {
             });
         }
         let tags = numbers.map(|x| tags[&x.to_bits()]).collect();
-        Groups {
-            dimension,
-            names,
-            tags,
-        }
+        Groups { dimension, names, tags }
     }
 }
 
@@ -131,25 +111,9 @@ fn names(out: &mut Vec<u8>, groups: &[Groups; 2]) {
 /// One entity per group, with its group's tag and the bounding box of the mesh for its own.
 fn entities(out: &mut Vec<u8>, mesh: &Mesh2, groups: &[Groups; 2]) {
     text(out, "$Entities\n");
-    end(field(
-        field(
-            field(field(out, 0), groups[0].names.len()),
-            groups[1].names.len(),
-        ),
-        0,
-    ));
-    let low = mesh
-        .points
-        .iter()
-        .copied()
-        .reduce(Point2::min)
-        .unwrap_or_default();
-    let high = mesh
-        .points
-        .iter()
-        .copied()
-        .reduce(Point2::max)
-        .unwrap_or_default();
+    end(field(field(field(field(out, 0), groups[0].names.len()), groups[1].names.len()), 0));
+    let low = mesh.points.iter().copied().reduce(Point2::min).unwrap_or_default();
+    let high = mesh.points.iter().copied().reduce(Point2::max).unwrap_or_default();
     for g in groups {
         for tag in g.names.keys() {
             field(out, tag);
@@ -188,16 +152,10 @@ fn elements_41(out: &mut Vec<u8>, mesh: &Mesh2, groups: &[Groups; 2]) {
     }
     let total = mesh.edges.len() + mesh.triangles.len();
     text(out, "$Elements\n");
-    end(field(
-        field(field(field(out, blocks.len()), total), total.min(1)),
-        total,
-    ));
+    end(field(field(field(field(out, blocks.len()), total), total.min(1)), total));
     for ((dimension, entity), elements) in blocks {
         // Gmsh's numbers of the two element types are their dimensions.
-        end(field(
-            field(field(field(out, dimension), entity), dimension),
-            elements.len(),
-        ));
+        end(field(field(field(field(out, dimension), entity), dimension), elements.len()));
         for i in elements {
             let (tag, corners) = element(mesh, dimension, i);
             field(out, tag);
@@ -212,11 +170,7 @@ fn elements_41(out: &mut Vec<u8>, mesh: &Mesh2, groups: &[Groups; 2]) {
 
 /// Tag and corners of the i-th element of a dimension.
 fn element(mesh: &Mesh2, dimension: u8, i: usize) -> (usize, &[VertexId]) {
-    if dimension == 1 {
-        (i + 1, &mesh.edges[i].ends)
-    } else {
-        (mesh.edges.len() + i + 1, &mesh.triangles[i])
-    }
+    if dimension == 1 { (i + 1, &mesh.edges[i].ends) } else { (mesh.edges.len() + i + 1, &mesh.triangles[i]) }
 }
 
 fn nodes_22(out: &mut Vec<u8>, mesh: &Mesh2) {
@@ -234,10 +188,7 @@ fn elements_22(out: &mut Vec<u8>, mesh: &Mesh2, groups: &[Groups; 2]) {
     for (g, count) in groups.iter().zip([mesh.edges.len(), mesh.triangles.len()]) {
         for i in 0..count {
             let (tag, corners) = element(mesh, g.dimension, i);
-            field(
-                field(field(field(field(out, tag), g.dimension), 2), g.tags[i]),
-                g.tags[i],
-            );
+            field(field(field(field(field(out, tag), g.dimension), 2), g.tags[i]), g.tags[i]);
             for VertexId(v) in corners {
                 field(out, v + 1);
             }

@@ -7,10 +7,7 @@ use crate::model::{Mesh2, VertexId};
 pub fn off(mesh: &Mesh2) -> Vec<u8> {
     let mut out = Vec::new();
     text(&mut out, "OFF\n");
-    end(field(
-        field(field(&mut out, mesh.points.len()), mesh.triangles.len()),
-        0,
-    ));
+    end(field(field(field(&mut out, mesh.points.len()), mesh.triangles.len()), 0));
     for p in &mesh.points {
         end(field(float(float(&mut out, p.x), p.y), 0));
     }

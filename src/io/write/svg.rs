@@ -35,29 +35,15 @@ const ON_SEGMENT: &str = "#f0a202";
 /// The mesh as a picture.
 pub fn svg(mesh: &Mesh2) -> Vec<u8> {
     let frame = Frame::of(&mesh.points);
-    let angles: Vec<f64> = mesh
-        .triangles
-        .iter()
-        .map(|&t| smallest_angle(mesh.corners(t)))
-        .collect();
+    let angles: Vec<f64> = mesh.triangles.iter().map(|&t| smallest_angle(mesh.corners(t))).collect();
     let mut out = Vec::new();
     let height = 2.0 * MARGIN + frame.height + LEGEND;
     text(
         &mut out,
-        &format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" ",
-            Short(WIDTH),
-            Short(height)
-        ),
+        &format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" ", Short(WIDTH), Short(height)),
     );
-    text(
-        &mut out,
-        &format!("width=\"{}\" height=\"{}\">\n", Short(WIDTH), Short(height)),
-    );
-    text(
-        &mut out,
-        "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-    );
+    text(&mut out, &format!("width=\"{}\" height=\"{}\">\n", Short(WIDTH), Short(height)));
+    text(&mut out, "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
     triangles(&mut out, mesh, &frame, &angles);
     segments(&mut out, mesh, &frame);
     points(&mut out, mesh, &frame);
@@ -78,44 +64,21 @@ struct Frame {
 
 impl Frame {
     fn of(points: &[Point2]) -> Frame {
-        let low = points
-            .iter()
-            .copied()
-            .reduce(Point2::min)
-            .unwrap_or_default()
-            * 0.5;
-        let high = points
-            .iter()
-            .copied()
-            .reduce(Point2::max)
-            .unwrap_or_default()
-            * 0.5;
+        let low = points.iter().copied().reduce(Point2::min).unwrap_or_default() * 0.5;
+        let high = points.iter().copied().reduce(Point2::max).unwrap_or_default() * 0.5;
         let extent = high - low;
         let room = WIDTH - 2.0 * MARGIN;
         let fit = |room: f64, extent: f64| {
-            if extent > 0.0 {
-                room / extent
-            } else {
-                f64::INFINITY
-            }
+            if extent > 0.0 { room / extent } else { f64::INFINITY }
         };
         let scale = fit(room, extent.x).min(fit(TALLEST, extent.y));
         let scale = if scale.is_finite() { scale } else { 0.0 };
-        Frame {
-            low,
-            high,
-            scale,
-            left: (WIDTH - scale * extent.x) / 2.0,
-            height: scale * extent.y,
-        }
+        Frame { low, high, scale, left: (WIDTH - scale * extent.x) / 2.0, height: scale * extent.y }
     }
 
     fn place(&self, p: Point2) -> Point2 {
         let half = p * 0.5;
-        Point2::new(
-            self.left + (half.x - self.low.x) * self.scale,
-            MARGIN + (self.high.y - half.y) * self.scale,
-        )
+        Point2::new(self.left + (half.x - self.low.x) * self.scale, MARGIN + (self.high.y - half.y) * self.scale)
     }
 }
 
@@ -125,10 +88,7 @@ struct Short(f64);
 impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let hundredths = (self.0 * 100.0).round() as i64;
-        let (sign, h) = (
-            if hundredths < 0 { "-" } else { "" },
-            hundredths.unsigned_abs(),
-        );
+        let (sign, h) = (if hundredths < 0 { "-" } else { "" }, hundredths.unsigned_abs());
         match h % 100 {
             0 => write!(f, "{sign}{}", h / 100),
             r if r % 10 == 0 => write!(f, "{sign}{}.{}", h / 100, r / 10),
@@ -146,8 +106,7 @@ fn bin(angle: f64) -> usize {
 fn colour(bin: usize) -> String {
     let at = (bin as f64 + 0.5) / 10.0;
     let (from, share) = (at as usize, at - at.floor());
-    let [r, g, b] = [0, 1, 2]
-        .map(|k| (RAMP[from][k] * (1.0 - share) + RAMP[from + 1][k] * share).round() as u8);
+    let [r, g, b] = [0, 1, 2].map(|k| (RAMP[from][k] * (1.0 - share) + RAMP[from + 1][k] * share).round() as u8);
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
@@ -164,25 +123,16 @@ fn triangles(out: &mut Vec<u8>, mesh: &Mesh2, frame: &Frame, angles: &[f64]) {
     for (&t, &angle) in mesh.triangles.iter().zip(angles) {
         let [a, b, c] = mesh.corners(t).map(|p| frame.place(p));
         let shortest = a.distance(b).min(b.distance(c)).min(c.distance(a));
-        let path = paths
-            .entry((stroke((0.03 * shortest).min(0.8)), bin(angle)))
-            .or_default();
+        let path = paths.entry((stroke((0.03 * shortest).min(0.8)), bin(angle))).or_default();
         let corners = [a.x, a.y, b.x, b.y, c.x, c.y].map(|x| Short(x).to_string());
         // Writing to a string cannot fail.
         write!(path, "M{}z", corners.join(" ")).expect("a string takes all text");
     }
-    text(
-        out,
-        &format!("<g stroke=\"{INK}\" stroke-opacity=\".5\" stroke-linejoin=\"round\">\n"),
-    );
+    text(out, &format!("<g stroke=\"{INK}\" stroke-opacity=\".5\" stroke-linejoin=\"round\">\n"));
     for ((width, bin), path) in paths {
         text(
             out,
-            &format!(
-                "<path fill=\"{}\" stroke-width=\"{}\" d=\"{path}\"/>\n",
-                colour(bin),
-                Short(STROKES[width])
-            ),
+            &format!("<path fill=\"{}\" stroke-width=\"{}\" d=\"{path}\"/>\n", colour(bin), Short(STROKES[width])),
         );
     }
     text(out, "</g>\n");
@@ -192,32 +142,13 @@ fn segments(out: &mut Vec<u8>, mesh: &Mesh2, frame: &Frame) {
     let mut paths: BTreeMap<usize, String> = BTreeMap::new();
     for e in &mesh.edges {
         let [a, b] = e.ends.map(|v| frame.place(mesh.points[v.index()]));
-        let path = paths
-            .entry(stroke((0.2 * a.distance(b)).max(0.8)))
-            .or_default();
+        let path = paths.entry(stroke((0.2 * a.distance(b)).max(0.8))).or_default();
         // Writing to a string cannot fail.
-        write!(
-            path,
-            "M{} {} {} {}",
-            Short(a.x),
-            Short(a.y),
-            Short(b.x),
-            Short(b.y)
-        )
-        .expect("a string takes all text");
+        write!(path, "M{} {} {} {}", Short(a.x), Short(a.y), Short(b.x), Short(b.y)).expect("a string takes all text");
     }
-    text(
-        out,
-        &format!("<g fill=\"none\" stroke=\"{INK}\" stroke-linecap=\"round\">\n"),
-    );
+    text(out, &format!("<g fill=\"none\" stroke=\"{INK}\" stroke-linecap=\"round\">\n"));
     for (width, path) in paths {
-        text(
-            out,
-            &format!(
-                "<path stroke-width=\"{}\" d=\"{path}\"/>\n",
-                Short(STROKES[width])
-            ),
-        );
+        text(out, &format!("<path stroke-width=\"{}\" d=\"{path}\"/>\n", Short(STROKES[width])));
     }
     text(out, "</g>\n");
 }
@@ -237,23 +168,13 @@ fn points(out: &mut Vec<u8>, mesh: &Mesh2, frame: &Frame) {
     for (fill, size, of_kind) in kinds {
         let of_kind = discriminant(&of_kind);
         let mut paths: BTreeMap<u8, String> = BTreeMap::new();
-        for (i, &p) in mesh
-            .points
-            .iter()
-            .enumerate()
-            .filter(|&(i, _)| discriminant(&mesh.kinds[i]) == of_kind)
-        {
+        for (i, &p) in mesh.points.iter().enumerate().filter(|&(i, _)| discriminant(&mesh.kinds[i]) == of_kind) {
             // At most 8.
             let steps = (LARGEST.min(0.17 * nearest[i]) / STEP) as u8;
             let at = frame.place(p);
             // Writing to a string cannot fail.
-            write!(
-                paths.entry(steps).or_default(),
-                "M{} {}h0",
-                Short(at.x),
-                Short(at.y)
-            )
-            .expect("a string takes all text");
+            write!(paths.entry(steps).or_default(), "M{} {}h0", Short(at.x), Short(at.y))
+                .expect("a string takes all text");
         }
         for (steps, path) in paths.iter().filter(|(steps, _)| **steps > 0) {
             let radius = STEP * f64::from(*steps) * size;
@@ -305,28 +226,14 @@ fn legend(out: &mut Vec<u8>, mesh: &Mesh2, angles: &[f64], top: f64) {
         ),
     );
     if !angles.is_empty() {
-        text(
-            out,
-            &format!(
-                ", smallest angle {}°",
-                Short((smallest * 10.0).floor() / 10.0)
-            ),
-        );
+        text(out, &format!(", smallest angle {}°", Short((smallest * 10.0).floor() / 10.0)));
     }
     text(out, "</text>\n");
     let count = |of: fn(VertexKind) -> bool| mesh.kinds.iter().filter(|k| of(**k)).count();
     let keys = [
         (INK, "input vertices", count(|k| k == VertexKind::Input)),
-        (
-            ON_SEGMENT,
-            "Steiner points on segments",
-            count(|k| matches!(k, VertexKind::Segment(_))),
-        ),
-        (
-            FREE,
-            "free Steiner points",
-            count(|k| k == VertexKind::Free),
-        ),
+        (ON_SEGMENT, "Steiner points on segments", count(|k| matches!(k, VertexKind::Segment(_)))),
+        (FREE, "free Steiner points", count(|k| k == VertexKind::Free)),
     ];
     for (k, (fill, name, count)) in keys.into_iter().enumerate() {
         let y = 26 + 20 * k;
@@ -339,19 +246,8 @@ fn legend(out: &mut Vec<u8>, mesh: &Mesh2, angles: &[f64], top: f64) {
             ),
         );
     }
-    text(
-        out,
-        &format!(
-            "<path stroke=\"{INK}\" stroke-width=\"2.4\" stroke-linecap=\"round\" d=\"M262 22h18\"/>"
-        ),
-    );
-    text(
-        out,
-        &format!(
-            "<text x=\"290\" y=\"26\">{} subsegments</text>\n</g>\n</g>\n",
-            grouped(mesh.edges.len())
-        ),
-    );
+    text(out, &format!("<path stroke=\"{INK}\" stroke-width=\"2.4\" stroke-linecap=\"round\" d=\"M262 22h18\"/>"));
+    text(out, &format!("<text x=\"290\" y=\"26\">{} subsegments</text>\n</g>\n</g>\n", grouped(mesh.edges.len())));
 }
 
 /// Bars over the colour scale: how many triangles have which smallest angle.
@@ -379,16 +275,10 @@ fn histogram(out: &mut Vec<u8>, angles: &[f64]) {
         }
         text(
             out,
-            &format!(
-                "<rect x=\"{x}\" y=\"50\" width=\"{}\" height=\"10\" fill=\"{fill}\"/>\n",
-                Short(DEGREE + 0.6)
-            ),
+            &format!("<rect x=\"{x}\" y=\"50\" width=\"{}\" height=\"10\" fill=\"{fill}\"/>\n", Short(DEGREE + 0.6)),
         );
     }
-    text(
-        out,
-        "<g font-size=\"11\" text-anchor=\"middle\" fill-opacity=\".8\">",
-    );
+    text(out, "<g font-size=\"11\" text-anchor=\"middle\" fill-opacity=\".8\">");
     for degrees in (0..=60).step_by(10) {
         let x = Short(DEGREE * f64::from(degrees));
         text(
@@ -398,13 +288,7 @@ fn histogram(out: &mut Vec<u8>, angles: &[f64]) {
             ),
         );
     }
-    text(
-        out,
-        &format!(
-            "<text x=\"{}\" y=\"92\">smallest angle of a triangle</text></g>\n",
-            Short(30.0 * DEGREE)
-        ),
-    );
+    text(out, &format!("<text x=\"{}\" y=\"92\">smallest angle of a triangle</text></g>\n", Short(30.0 * DEGREE)));
 }
 
 /// A count with thin spaces between the thousands.

@@ -6,25 +6,12 @@ use crate::model::{Mesh2, Point2, Pslg, Region, VertexId};
 /// The `.node` file: all vertices with attributes and markers.
 pub fn node(mesh: &Mesh2) -> Vec<u8> {
     let mut out = Vec::new();
-    vertices(
-        &mut out,
-        &mesh.points,
-        (&mesh.attributes, mesh.attributes_per_point),
-        Some(&mesh.point_markers),
-    );
+    vertices(&mut out, &mesh.points, (&mesh.attributes, mesh.attributes_per_point), Some(&mesh.point_markers));
     out
 }
 
-fn vertices(
-    out: &mut Vec<u8>,
-    points: &[Point2],
-    (attributes, per_point): (&[f64], usize),
-    markers: Option<&[i32]>,
-) {
-    end(field(
-        field(field(field(out, points.len()), 2), per_point),
-        u8::from(markers.is_some()),
-    ));
+fn vertices(out: &mut Vec<u8>, points: &[Point2], (attributes, per_point): (&[f64], usize), markers: Option<&[i32]>) {
+    end(field(field(field(field(out, points.len()), 2), per_point), u8::from(markers.is_some())));
     for (i, p) in points.iter().enumerate() {
         float(float(field(out, i + 1), p.x), p.y);
         for &a in &attributes[i * per_point..(i + 1) * per_point] {
@@ -41,10 +28,7 @@ fn vertices(
 pub fn ele(mesh: &Mesh2) -> Vec<u8> {
     let mut out = Vec::new();
     let attributes = u8::from(!mesh.triangle_attributes.is_empty());
-    end(field(
-        field(field(&mut out, mesh.triangles.len()), 3),
-        attributes,
-    ));
+    end(field(field(field(&mut out, mesh.triangles.len()), 3), attributes));
     for (i, t) in mesh.triangles.iter().enumerate() {
         field(&mut out, i + 1);
         for VertexId(v) in t {
@@ -61,19 +45,12 @@ pub fn ele(mesh: &Mesh2) -> Vec<u8> {
 /// The `.poly` file that goes with `.node`: the subsegments with their markers, and the holes and regions of the domain where it is given.
 pub fn poly(mesh: &Mesh2, domain: Option<&Pslg>) -> Vec<u8> {
     let mut out = Vec::new();
-    end(field(
-        field(field(field(&mut out, 0), 2), mesh.attributes_per_point),
-        1,
-    ));
+    end(field(field(field(field(&mut out, 0), 2), mesh.attributes_per_point), 1));
     end(field(field(&mut out, mesh.edges.len()), 1));
     for (i, e) in mesh.edges.iter().enumerate() {
         row(&mut out, i, e.ends, e.marker);
     }
-    seeds(
-        &mut out,
-        domain.map_or(&[], |d| &d.holes),
-        domain.map_or(&[], |d| &d.regions),
-    );
+    seeds(&mut out, domain.map_or(&[], |d| &d.holes), domain.map_or(&[], |d| &d.regions));
     out
 }
 
@@ -91,10 +68,7 @@ fn seeds(out: &mut Vec<u8>, holes: &[Point2], regions: &[Region]) {
     }
     end(field(out, regions.len()));
     for (i, r) in regions.iter().enumerate() {
-        float(
-            float(float(field(out, i + 1), r.seed.x), r.seed.y),
-            r.attribute,
-        );
+        float(float(float(field(out, i + 1), r.seed.x), r.seed.y), r.attribute);
         end(float(out, r.max_area.unwrap_or(-1.0)));
     }
 }
@@ -106,12 +80,7 @@ fn seeds(out: &mut Vec<u8>, holes: &[Point2], regions: &[Region]) {
 pub fn pslg(graph: &Pslg) -> Vec<u8> {
     let mut out = Vec::new();
     let markers = (!graph.point_markers.is_empty()).then_some(&graph.point_markers[..]);
-    vertices(
-        &mut out,
-        &graph.points,
-        (&graph.attributes, graph.attributes_per_point),
-        markers,
-    );
+    vertices(&mut out, &graph.points, (&graph.attributes, graph.attributes_per_point), markers);
     end(field(field(&mut out, graph.segments.len()), 1));
     for (i, s) in graph.segments.iter().enumerate() {
         row(&mut out, i, s.ends, s.marker);
@@ -122,8 +91,7 @@ pub fn pslg(graph: &Pslg) -> Vec<u8> {
 
 /// The `.edge` file: all edges of the triangles and all subsegments, in ascending order of ends; edges that are no subsegment have marker 0.
 pub fn edge(mesh: &Mesh2) -> Vec<u8> {
-    let mut all: Vec<([VertexId; 2], i32)> =
-        mesh.edges.iter().map(|e| (e.ends, e.marker)).collect();
+    let mut all: Vec<([VertexId; 2], i32)> = mesh.edges.iter().map(|e| (e.ends, e.marker)).collect();
     for &[a, b, c] in &mesh.triangles {
         all.extend([[a, b], [b, c], [c, a]].map(|[p, q]| ([p.min(q), p.max(q)], 0)));
     }

@@ -20,32 +20,19 @@ pub fn vtu(mesh: &Mesh2) -> Vec<u8> {
     text(&mut out, "<UnstructuredGrid>\n");
     text(
         &mut out,
-        &format!(
-            "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-            mesh.points.len(),
-            triangles + lines
-        ),
+        &format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.points.len(), triangles + lines),
     );
     text(&mut out, "<PointData Scalars=\"kind\">\n");
     point_data(&mut out, mesh);
     text(&mut out, "</PointData>\n<CellData Scalars=\"min_angle\">\n");
     cell_data(&mut out, mesh);
     text(&mut out, "</CellData>\n<Points>\n");
-    array(
-        &mut out,
-        "Float64",
-        "Points\" NumberOfComponents=\"3",
-        mesh.points.iter(),
-        |out, p| {
-            field(float(float(out, p.x), p.y), 0);
-        },
-    );
+    array(&mut out, "Float64", "Points\" NumberOfComponents=\"3", mesh.points.iter(), |out, p| {
+        field(float(float(out, p.x), p.y), 0);
+    });
     text(&mut out, "</Points>\n<Cells>\n");
     cells(&mut out, mesh);
-    text(
-        &mut out,
-        "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-    );
+    text(&mut out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     out
 }
 
@@ -57,10 +44,7 @@ fn array<T>(
     items: impl Iterator<Item = T>,
     mut put: impl FnMut(&mut Vec<u8>, T),
 ) {
-    text(
-        out,
-        &format!("<DataArray type=\"{kind}\" Name=\"{name}\" format=\"ascii\">\n"),
-    );
+    text(out, &format!("<DataArray type=\"{kind}\" Name=\"{name}\" format=\"ascii\">\n"));
     for item in items {
         put(out, item);
         end(out);
@@ -77,74 +61,36 @@ fn point_data(out: &mut Vec<u8>, mesh: &Mesh2) {
         };
         field(out, number);
     });
-    array(
-        out,
-        "Int32",
-        "marker",
-        mesh.point_markers.iter(),
-        |out, m| {
-            field(out, m);
-        },
-    );
+    array(out, "Int32", "marker", mesh.point_markers.iter(), |out, m| {
+        field(out, m);
+    });
     for k in 0..mesh.attributes_per_point {
-        let column = mesh
-            .attributes
-            .iter()
-            .skip(k)
-            .step_by(mesh.attributes_per_point);
-        array(
-            out,
-            "Float64",
-            &format!("attribute_{k}"),
-            column,
-            |out, &a| {
-                float(out, a);
-            },
-        );
+        let column = mesh.attributes.iter().skip(k).step_by(mesh.attributes_per_point);
+        array(out, "Float64", &format!("attribute_{k}"), column, |out, &a| {
+            float(out, a);
+        });
     }
 }
 
 fn cell_data(out: &mut Vec<u8>, mesh: &Mesh2) {
-    let angles: Vec<f64> = mesh
-        .triangles
-        .iter()
-        .map(|&t| smallest_angle(mesh.corners(t)))
-        .collect();
+    let angles: Vec<f64> = mesh.triangles.iter().map(|&t| smallest_angle(mesh.corners(t))).collect();
     let beside = triangles_beside_edges(mesh);
     let worst = |i: &Vec<usize>| i.iter().map(|&t| angles[t]).fold(60.0, f64::min);
-    array(
-        out,
-        "Float64",
-        "min_angle",
-        angles.iter().copied().chain(beside.iter().map(worst)),
-        |out, a| {
-            float(out, a);
-        },
-    );
+    array(out, "Float64", "min_angle", angles.iter().copied().chain(beside.iter().map(worst)), |out, a| {
+        float(out, a);
+    });
     if !mesh.triangle_attributes.is_empty() {
         let region = |i: &Vec<usize>| i.first().map_or(0.0, |&t| mesh.triangle_attributes[t]);
-        let all = mesh
-            .triangle_attributes
-            .iter()
-            .copied()
-            .chain(beside.iter().map(region));
+        let all = mesh.triangle_attributes.iter().copied().chain(beside.iter().map(region));
         array(out, "Float64", "region", all, |out, a| {
             float(out, a);
         });
     }
-    let markers = mesh
-        .triangles
-        .iter()
-        .map(|_| 0)
-        .chain(mesh.edges.iter().map(|e| e.marker));
+    let markers = mesh.triangles.iter().map(|_| 0).chain(mesh.edges.iter().map(|e| e.marker));
     array(out, "Int32", "marker", markers, |out, m| {
         field(out, m);
     });
-    let types = mesh
-        .triangles
-        .iter()
-        .map(|_| 0)
-        .chain(mesh.edges.iter().map(|_| 1));
+    let types = mesh.triangles.iter().map(|_| 0).chain(mesh.edges.iter().map(|_| 1));
     array(out, "UInt8", "cell_type", types, |out, t| {
         field(out, t);
     });
@@ -159,10 +105,7 @@ fn triangles_beside_edges(mesh: &Mesh2) -> Vec<Vec<usize>> {
         for [p, q] in [[a, b], [b, c], [c, a]] {
             let ends = [p.min(q), p.max(q)];
             let from = order.partition_point(|&i| mesh.edges[i].ends < ends);
-            for &i in order[from..]
-                .iter()
-                .take_while(|&&i| mesh.edges[i].ends == ends)
-            {
+            for &i in order[from..].iter().take_while(|&&i| mesh.edges[i].ends == ends) {
                 beside[i].push(t);
             }
         }
@@ -171,20 +114,14 @@ fn triangles_beside_edges(mesh: &Mesh2) -> Vec<Vec<usize>> {
 }
 
 fn cells(out: &mut Vec<u8>, mesh: &Mesh2) {
-    let corners = mesh
-        .triangles
-        .iter()
-        .map(|t| &t[..])
-        .chain(mesh.edges.iter().map(|e| &e.ends[..]));
+    let corners = mesh.triangles.iter().map(|t| &t[..]).chain(mesh.edges.iter().map(|e| &e.ends[..]));
     array(out, "Int64", "connectivity", corners, |out, ids| {
         for VertexId(v) in ids {
             field(out, v);
         }
     });
     let (triangles, lines) = (mesh.triangles.len(), mesh.edges.len());
-    let offsets = (1..=triangles)
-        .map(|i| 3 * i)
-        .chain((1..=lines).map(|i| 3 * triangles + 2 * i));
+    let offsets = (1..=triangles).map(|i| 3 * i).chain((1..=lines).map(|i| 3 * triangles + 2 * i));
     array(out, "Int64", "offsets", offsets, |out, o| {
         field(out, o);
     });

@@ -51,10 +51,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         let bound = self.area_bounds[self.cdt.region(t) as usize];
         if let Some(bound) = bound.filter(|&bound| K::exceeds_area(corners, bound)) {
             self.oversized.push(&self.cdt, t, Badness::Area, bound);
-        } else if let Some(h) = self
-            .size_at(corners)?
-            .filter(|&h| K::exceeds_radius(corners, h))
-        {
+        } else if let Some(h) = self.size_at(corners)?.filter(|&h| K::exceeds_radius(corners, h)) {
             self.oversized.push(&self.cdt, t, Badness::Size, h);
         }
         Ok(())
@@ -70,11 +67,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         };
         let at = self.scale.to_input(center);
         let value = size(at);
-        let h = if value > 0.0 && value.is_finite() {
-            in_window(value, -self.scale.exponent)
-        } else {
-            None
-        };
+        let h = if value > 0.0 && value.is_finite() { in_window(value, -self.scale.exponent) } else { None };
         h.map(Some).ok_or(RunError::Size { at, value })
     }
 }

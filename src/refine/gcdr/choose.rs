@@ -3,9 +3,7 @@
 use super::queue::shortest_edge;
 use crate::arith::philox::philox4x32;
 use crate::arith::{Kernel, OutOfRange};
-use crate::model::{
-    Choice, DiskChoice, GcdrParameters, Point2, Triangle, VertexId, VertexOfTriangle,
-};
+use crate::model::{Choice, DiskChoice, GcdrParameters, Point2, Triangle, VertexId, VertexOfTriangle};
 
 /// Numbers drawn for one step; `docs/trace-format.md`, Draws.
 #[derive(Clone, Copy, Debug)]
@@ -20,10 +18,7 @@ const INTERVAL: u32 = 1;
 
 impl Draws {
     fn words(self, n: u32, stream: u32) -> [u32; 4] {
-        philox4x32(
-            [self.seed as u32, (self.seed >> 32) as u32],
-            [self.step, n, stream, 0],
-        )
+        philox4x32([self.seed as u32, (self.seed >> 32) as u32], [self.step, n, stream, 0])
     }
 
     /// A dyadic number of [-1, 1] from two words: m / 2^52 - 1 with m of 53 bits, as the exact integer m - 2^52.
@@ -100,7 +95,7 @@ pub(super) fn on_segment<K: Kernel>(
             let from_u = match params.extreme.unwrap_or(VertexOfTriangle::First) {
                 VertexOfTriangle::First => true,
                 VertexOfTriangle::Newest => false,
-                VertexOfTriangle::Seeded => draws.words(0, INTERVAL)[0] % 2 == 0,
+                VertexOfTriangle::Seeded => draws.words(0, INTERVAL)[0].is_multiple_of(2),
             };
             let [w, other] = if from_u { [u, v] } else { [v, u] };
             K::in_interval(w, other, delta, -1.0)

@@ -25,13 +25,10 @@ use super::run::{Options, Run, RunError, Unmet};
 use crate::arith::{Kernel, scale};
 use crate::domain::{Scale, normalise};
 use crate::model::{
-    Fill, GcdrParameters, Level, Lines, Point2, Pslg, SegmentId, SmallAngles, Triangle, VertexId,
-    VertexKind, canonical_triangle,
+    Fill, GcdrParameters, Level, Lines, Point2, Pslg, SegmentId, SmallAngles, Triangle, VertexId, VertexKind,
+    canonical_triangle,
 };
-use crate::trace::{
-    Cause, Counts, End, Event, Outcome, Record, Shell, Sink, SkipReason, SplitKind, Why,
-    mesh_digest,
-};
+use crate::trace::{Cause, Counts, End, Event, Outcome, Record, Shell, Sink, SkipReason, SplitKind, Why, mesh_digest};
 use crate::triangulation::cdt2::{Cdt2, Change, HalfEdge, TriId, Walk};
 use choose::{Draws, ordered, type_a};
 use output::{add_hull, canonical_triangles, mesh_of, write_head};
@@ -49,10 +46,7 @@ const STOP_INTERVAL: u64 = 64;
 enum Kind {
     Input,
     Free,
-    Segment {
-        segment: SegmentId,
-        rung: Option<Rung>,
-    },
+    Segment { segment: SegmentId, rung: Option<Rung> },
 }
 
 /// The nominal distance of a vertex on a segment from the apex at its end: what it would be without rounding.
@@ -102,12 +96,7 @@ pub fn run<K: Kernel>(
     sink: &mut dyn Sink,
 ) -> Result<Run, RunError> {
     validate(params, options)?;
-    let Initial {
-        pslg,
-        scale,
-        cdt,
-        start,
-    } = Initial::<K>::of(pslg)?;
+    let Initial { pslg, scale, cdt, start } = Initial::<K>::of(pslg)?;
     let sectors = sectors_of(&cdt);
     let level = level_of(params, &sectors);
     let area_bounds = area_bounds(&pslg, params, scale)?;
@@ -162,8 +151,7 @@ struct Initial<K: Kernel> {
 
 impl<K: Kernel> Initial<K> {
     fn of(pslg: &Pslg) -> Result<Self, RunError> {
-        let (points, scale) =
-            normalise(&pslg.points, &Lines::default()).map_err(RunError::Range)?;
+        let (points, scale) = normalise(&pslg.points, &Lines::default()).map_err(RunError::Range)?;
         let mut pslg = pslg.clone();
         let mut cdt = Cdt2::<K>::delaunay(points)?;
         if pslg.fill == Fill::Convex {
@@ -176,12 +164,7 @@ impl<K: Kernel> Initial<K> {
         let holes: Vec<Point2> = pslg.holes.iter().map(|&p| scale.to_normal(p)).collect();
         let regions = pslg.regions.iter().map(|r| scale.to_normal(r.seed));
         cdt.carve(pslg.fill, &toggles, &holes, &regions.collect::<Vec<_>>())?;
-        Ok(Initial {
-            pslg,
-            scale,
-            cdt,
-            start,
-        })
+        Ok(Initial { pslg, scale, cdt, start })
     }
 }
 
@@ -190,10 +173,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
     fn refine(&mut self) -> Result<Option<String>, RunError> {
         while let Some(bad) = self.next_bad() {
             if self.events >= self.options.max_steps {
-                return Ok(Some(format!(
-                    "the budget of {} steps is spent",
-                    self.options.max_steps
-                )));
+                return Ok(Some(format!("the budget of {} steps is spent", self.options.max_steps)));
             }
             if self.events.is_multiple_of(STOP_INTERVAL)
                 && let Some(stop) = &mut self.options.stop
@@ -205,11 +185,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
                 None => self.current = Some(bad),
                 Some(reason) => {
                     self.current = None;
-                    self.emit(Event::Skip {
-                        t: bad.ids,
-                        cause: self.unscaled(bad.cause()),
-                        reason,
-                    })?;
+                    self.emit(Event::Skip { t: bad.ids, cause: self.unscaled(bad.cause()), reason })?;
                     self.skipped.push((bad, reason));
                 }
             }
@@ -251,9 +227,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         self.cdt.insert(bad.t, a, &mut change);
         self.kinds.push(Kind::Free);
         self.counts.type_a += 1;
-        let why = Why::Free {
-            cause: self.unscaled(bad.cause()),
-        };
+        let why = Why::Free { cause: self.unscaled(bad.cause()) };
         self.record_insertion(a, why, change)?;
         self.classify_fresh()
     }
@@ -266,18 +240,14 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         let near = self.non_free_near(s);
         let type_c = !near.is_empty();
         let (p, shell) = self.split_point(s, type_c)?;
-        if self
-            .params
-            .max_splits
-            .is_some_and(|limit| self.splits[segment.0 as usize] >= limit)
-        {
+        if self.params.max_splits.is_some_and(|limit| self.splits[segment.0 as usize] >= limit) {
             return Ok(Some(SkipReason::SplitLimit { segment }));
         }
         let ends = s.map(|v| self.cdt.point(v));
         if ends.contains(&p) {
             return Ok(Some(SkipReason::Resolution));
         }
-        let doomed = self.to_delete(s, p);
+        let doomed = self.doomed_by(s, p);
         let before = (self.events, self.fresh.len());
         let mut removals = Vec::new();
         self.cdt.checkpoint();
@@ -285,9 +255,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             removals.push(self.delete(w));
         }
         let kind = match type_c {
-            true => self
-                .parent(s, p, near)
-                .map(|parent| SplitKind::C { parent }),
+            true => self.parent(s, p, near).map(|parent| SplitKind::C { parent }),
             false => Ok(SplitKind::B),
         };
         let (Ok(kind), true) = (kind, self.splits_properly(s, p)) else {
@@ -301,17 +269,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             self.sink.record(&Record::Event(removal))?;
         }
         self.counts.removed += doomed.len() as u32;
-        self.insert_on_segment(
-            bad,
-            &Split {
-                s,
-                segment,
-                kind,
-                p,
-                shell,
-            },
-            a,
-        )?;
+        self.insert_on_segment(bad, &Split { s, segment, kind, p, shell }, a)?;
         Ok(None)
     }
 
@@ -320,11 +278,8 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         self.tick();
         let mut change = std::mem::take(&mut self.change);
         self.cdt.remove(w, &mut change);
-        let mut created: Vec<Triangle> = change
-            .created
-            .iter()
-            .map(|&t| canonical_triangle(self.cdt.vertices(t)))
-            .collect();
+        let mut created: Vec<Triangle> =
+            change.created.iter().map(|&t| canonical_triangle(self.cdt.vertices(t))).collect();
         created.sort_unstable();
         self.note_created(&change);
         self.change = change;
@@ -334,21 +289,11 @@ impl<K: Kernel> Refiner<'_, '_, K> {
 
     /// Replaces s by (u, p), (p, v) and the cavity on each side.
     fn insert_on_segment(&mut self, bad: &Bad, split: &Split, a: Point2) -> Result<(), RunError> {
-        let &Split {
-            s: [u, v],
-            segment,
-            kind,
-            p,
-            shell,
-        } = split;
+        let &Split { s: [u, v], segment, kind, p, shell } = split;
         self.tick();
         let mut change = std::mem::take(&mut self.change);
         // s is a subsegment of the region: it has a triangle on one side at least
-        if let Some(e) = self
-            .cdt
-            .find_edge(u, v)
-            .or_else(|| self.cdt.find_edge(v, u))
-        {
+        if let Some(e) = self.cdt.find_edge(u, v).or_else(|| self.cdt.find_edge(v, u)) {
             self.cdt.split(e, p, &mut change);
         }
         self.note_interval([u, v], kind, p);
@@ -365,28 +310,16 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             t: bad.ids,
             cause: self.unscaled(bad.cause()),
             a: self.scale.to_input(a),
-            shell: shell.map(|Shell { apex, k }| Shell {
-                apex,
-                k: k + self.scale.exponent,
-            }),
+            shell: shell.map(|Shell { apex, k }| Shell { apex, k: k + self.scale.exponent }),
         };
         self.record_insertion(p, why, change)?;
         self.classify_fresh()
     }
 
-    fn record_insertion(
-        &mut self,
-        p: Point2,
-        why: Why,
-        mut change: Change,
-    ) -> Result<(), RunError> {
+    fn record_insertion(&mut self, p: Point2, why: Why, mut change: Change) -> Result<(), RunError> {
         self.note_created(&change);
         let destroyed = std::mem::take(&mut change.destroyed);
-        let event = Record::Event(Event::Insert {
-            p: self.scale.to_input(p),
-            why,
-            destroyed,
-        });
+        let event = Record::Event(Event::Insert { p: self.scale.to_input(p), why, destroyed });
         self.sink.record(&event)?;
         self.events += 1;
         if let Record::Event(Event::Insert { destroyed, .. }) = event {
@@ -409,22 +342,16 @@ impl<K: Kernel> Refiner<'_, '_, K> {
 
     fn note_created(&mut self, change: &Change) {
         let birth = self.events as u32 + 1;
-        self.fresh
-            .extend(change.created.iter().map(|&t| (t, birth)));
+        self.fresh.extend(change.created.iter().map(|&t| (t, birth)));
     }
 
     fn draws(&self) -> Draws {
-        Draws {
-            seed: self.params.seed.unwrap_or(0),
-            step: self.step,
-        }
+        Draws { seed: self.params.seed.unwrap_or(0), step: self.step }
     }
 
     fn unscaled(&self, cause: Cause) -> Cause {
         match cause {
-            Cause::Size { h } => Cause::Size {
-                h: scale::by_power_of_two(h, self.scale.exponent),
-            },
+            Cause::Size { h } => Cause::Size { h: scale::by_power_of_two(h, self.scale.exponent) },
             other => other,
         }
     }
@@ -440,26 +367,13 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         self.kinds.iter().map(public).collect()
     }
 
-    fn finish(
-        mut self,
-        pslg: &Pslg,
-        level: Level,
-        stop_reason: Option<String>,
-    ) -> Result<Run, RunError> {
+    fn finish(mut self, pslg: &Pslg, level: Level, stop_reason: Option<String>) -> Result<Run, RunError> {
         let level_effective = match self.stray {
             Stray::Exact => level,
             Stray::Rounded => {
                 let params = &self.params;
                 let [d1, d2, mu] = [params.d1, params.d2, params.mu].map(slackened);
-                level.min(level_of(
-                    &GcdrParameters {
-                        d1,
-                        d2,
-                        mu,
-                        ..params.clone()
-                    },
-                    &self.sectors,
-                ))
+                level.min(level_of(&GcdrParameters { d1, d2, mu, ..params.clone() }, &self.sectors))
             }
             Stray::Outside => Level::Outside,
         };
@@ -491,15 +405,6 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             mesh: mesh_digest(&mesh),
             trace: String::new(),
         }))?;
-        Ok(Run {
-            mesh,
-            outcome,
-            stop_reason,
-            level,
-            level_effective,
-            counts: self.counts,
-            unmet,
-            events: self.events,
-        })
+        Ok(Run { mesh, outcome, stop_reason, level, level_effective, counts: self.counts, unmet, events: self.events })
     }
 }

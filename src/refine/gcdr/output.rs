@@ -4,8 +4,7 @@ use super::choose::ordered;
 use crate::arith::Kernel;
 use crate::domain::Scale;
 use crate::model::{
-    GcdrParameters, Level, Mesh2, MeshEdge, Pslg, Segment, Triangle, VertexId, VertexKind,
-    canonical_triangle,
+    GcdrParameters, Level, Mesh2, MeshEdge, Pslg, Segment, Triangle, VertexId, VertexKind, canonical_triangle,
 };
 use crate::refine::RunError;
 use crate::trace::{Algorithm, Header, Record, Sink};
@@ -20,10 +19,7 @@ pub(in crate::refine) fn mesh_of<K: Kernel>(
     kinds: &[VertexKind],
     pslg: &Pslg,
 ) -> (Mesh2, Vec<u32>) {
-    let mut mesh = Mesh2 {
-        attributes_per_point: pslg.attributes_per_point,
-        ..Mesh2::default()
-    };
+    let mut mesh = Mesh2 { attributes_per_point: pslg.attributes_per_point, ..Mesh2::default() };
     let mut dense = vec![u32::MAX; kinds.len()];
     for (k, &kind) in kinds.iter().enumerate() {
         let v = VertexId(k as u32);
@@ -40,29 +36,20 @@ pub(in crate::refine) fn mesh_of<K: Kernel>(
         mesh.kinds.push(kind);
         match attributes_of(pslg, k) {
             Some(own) => mesh.attributes.extend_from_slice(own),
-            None => mesh
-                .attributes
-                .extend(std::iter::repeat_n(0.0, pslg.attributes_per_point)),
+            None => mesh.attributes.extend(std::iter::repeat_n(0.0, pslg.attributes_per_point)),
         }
     }
     let to_dense = |v: VertexId| VertexId(dense[v.index()]);
     let mut triangles: Vec<(Triangle, u32)> = Vec::new();
     for t in cdt.triangles() {
-        triangles.push((
-            canonical_triangle(cdt.vertices(t).map(to_dense)),
-            cdt.region(t),
-        ));
+        triangles.push((canonical_triangle(cdt.vertices(t).map(to_dense)), cdt.region(t)));
         for e in cdt.edges(t) {
             let (u, v) = (cdt.origin(e), cdt.destination(e));
             if let Some(segment) = cdt.segment(e)
                 && (u < v || cdt.twin(e).is_none())
             {
                 let marker = pslg.segments[segment.0 as usize].marker;
-                mesh.edges.push(MeshEdge {
-                    ends: ordered(to_dense(u), to_dense(v)),
-                    marker,
-                    segment,
-                });
+                mesh.edges.push(MeshEdge { ends: ordered(to_dense(u), to_dense(v)), marker, segment });
             }
         }
     }
@@ -74,10 +61,7 @@ pub(in crate::refine) fn mesh_of<K: Kernel>(
             0 => 0.0,
             k => pslg.regions[k as usize - 1].attribute,
         };
-        mesh.triangle_attributes = triangles
-            .iter()
-            .map(|&(_, label)| attribute(label))
-            .collect();
+        mesh.triangle_attributes = triangles.iter().map(|&(_, label)| attribute(label)).collect();
     }
     (mesh, dense)
 }
@@ -90,21 +74,14 @@ fn attributes_of(pslg: &Pslg, k: usize) -> Option<&[f64]> {
 
 /// The triangles, canonical, ascending.
 pub(in crate::refine) fn canonical_triangles<K: Kernel>(cdt: &Cdt2<K>) -> Vec<Triangle> {
-    let mut all: Vec<Triangle> = cdt
-        .triangles()
-        .map(|t| canonical_triangle(cdt.vertices(t)))
-        .collect();
+    let mut all: Vec<Triangle> = cdt.triangles().map(|t| canonical_triangle(cdt.vertices(t))).collect();
     all.sort_unstable();
     all
 }
 
 /// Makes the edges of the convex hull segments (marker 1), in ascending order of their ends.
 pub(super) fn add_hull<K: Kernel>(cdt: &Cdt2<K>, pslg: &mut Pslg) {
-    let mut known: Vec<[VertexId; 2]> = pslg
-        .segments
-        .iter()
-        .map(|s| ordered(s.ends[0], s.ends[1]))
-        .collect();
+    let mut known: Vec<[VertexId; 2]> = pslg.segments.iter().map(|s| ordered(s.ends[0], s.ends[1])).collect();
     known.sort_unstable();
     let mut hull: Vec<[VertexId; 2]> = Vec::new();
     for e in cdt.triangles().flat_map(|t| cdt.edges(t)) {
@@ -114,11 +91,7 @@ pub(super) fn add_hull<K: Kernel>(cdt: &Cdt2<K>, pslg: &mut Pslg) {
         }
     }
     hull.sort_unstable();
-    pslg.segments.extend(hull.into_iter().map(|ends| Segment {
-        ends,
-        marker: 1,
-        toggles: false,
-    }));
+    pslg.segments.extend(hull.into_iter().map(|ends| Segment { ends, marker: 1, toggles: false }));
 }
 
 /// Header, domain and initial triangulation.
@@ -130,29 +103,17 @@ pub(super) fn write_head(
     sink: &mut dyn Sink,
 ) -> Result<(), RunError> {
     let algorithm = Algorithm::Gcdr(params.clone());
-    sink.record(&Record::Header(Header {
-        algorithm,
-        level: Some(level),
-        fill: pslg.fill,
-    }))?;
+    sink.record(&Record::Header(Header { algorithm, level: Some(level), fill: pslg.fill }))?;
     write_domain(pslg, start, sink)?;
     Ok(())
 }
 
 /// The records of the domain and of the initial triangulation.
-pub(crate) fn write_domain(
-    pslg: &Pslg,
-    start: &[Triangle],
-    sink: &mut dyn Sink,
-) -> std::io::Result<()> {
+pub(crate) fn write_domain(pslg: &Pslg, start: &[Triangle], sink: &mut dyn Sink) -> std::io::Result<()> {
     for (k, &at) in pslg.points.iter().enumerate() {
         let marker = pslg.point_markers.get(k).copied();
         let attributes = attributes_of(pslg, k).unwrap_or_default().to_vec();
-        sink.record(&Record::Vertex {
-            at,
-            marker,
-            attributes,
-        })?;
+        sink.record(&Record::Vertex { at, marker, attributes })?;
     }
     for &segment in &pslg.segments {
         sink.record(&Record::Segment(segment))?;
@@ -163,9 +124,7 @@ pub(crate) fn write_domain(
     for &region in &pslg.regions {
         sink.record(&Record::Region(region))?;
     }
-    sink.record(&Record::Start {
-        triangles: start.len() as u32,
-    })?;
+    sink.record(&Record::Start { triangles: start.len() as u32 })?;
     for &t in start {
         sink.record(&Record::Triangle(t))?;
     }

@@ -13,22 +13,14 @@ use crate::refine::{Options, RunError};
 /// Up to 25 degrees every input known ends soon; above 30 a run may end by its budget only.
 pub fn everyday(min_angle: f64) -> Result<GcdrParameters, AngleOutOfRange> {
     let rho2 = rho2_from_min_angle(min_angle)?;
-    Ok(GcdrParameters {
-        choice_a: DiskChoice::Offcenter,
-        kappa: Some(kappa(rho2)),
-        ..GcdrParameters::chew(rho2)
-    })
+    Ok(GcdrParameters { choice_a: DiskChoice::Offcenter, kappa: Some(kappa(rho2)), ..GcdrParameters::chew(rho2) })
 }
 
 /// Refuses parameters outside their ranges.
 pub(super) fn validate(params: &GcdrParameters, options: &Options) -> Result<(), RunError> {
     let fraction = |name, value: f64| match value > 0.0 && value <= 1.0 {
         true => Ok(()),
-        false => Err(RunError::Parameter {
-            name,
-            value,
-            range: "in (0, 1]",
-        }),
+        false => Err(RunError::Parameter { name, value, range: "in (0, 1]" }),
     };
     fraction("d1", params.d1)?;
     fraction("d2", params.d2)?;
@@ -37,26 +29,12 @@ pub(super) fn validate(params: &GcdrParameters, options: &Options) -> Result<(),
         true => Ok(()),
         false => Err(RunError::Parameter { name, value, range }),
     };
-    positive(
-        "rho2",
-        params.rho2,
-        0.34,
-        "in [0.34, 1e30] (1/3 is that of an equilateral triangle)",
-    )?;
-    let offcenter = matches!(
-        params.choice_a,
-        DiskChoice::Offcenter | DiskChoice::ClampedOffcenter
-    );
+    positive("rho2", params.rho2, 0.34, "in [0.34, 1e30] (1/3 is that of an equilateral triangle)")?;
+    let offcenter = matches!(params.choice_a, DiskChoice::Offcenter | DiskChoice::ClampedOffcenter);
     if offcenter {
-        positive(
-            "kappa",
-            params.kappa.unwrap_or(0.0),
-            1e-3,
-            "in [0.001, 1e30]",
-        )?;
+        positive("kappa", params.kappa.unwrap_or(0.0), 1e-3, "in [0.001, 1e30]")?;
     }
-    let user = params.choice_a == DiskChoice::User
-        || [params.choice_b, params.choice_c].contains(&Choice::User);
+    let user = params.choice_a == DiskChoice::User || [params.choice_b, params.choice_c].contains(&Choice::User);
     if user && options.chooser.is_none() || params.size_function && options.size.is_none() {
         return Err(RunError::MissingFunction);
     }
@@ -64,11 +42,7 @@ pub(super) fn validate(params: &GcdrParameters, options: &Options) -> Result<(),
 }
 
 /// The area bound of each region label in normalised units: of no region, then of each seed.
-pub(super) fn area_bounds(
-    pslg: &Pslg,
-    params: &GcdrParameters,
-    scale: Scale,
-) -> Result<Vec<Option<f64>>, RunError> {
+pub(super) fn area_bounds(pslg: &Pslg, params: &GcdrParameters, scale: Scale) -> Result<Vec<Option<f64>>, RunError> {
     let everywhere = area_bound(params.max_area, scale)?;
     let mut bounds = vec![everywhere];
     for region in &pslg.regions {
@@ -84,21 +58,13 @@ pub(super) fn area_bounds(
 fn area_bound(area: Option<f64>, scale: Scale) -> Result<Option<f64>, RunError> {
     let Some(value) = area else { return Ok(None) };
     if !value.is_finite() || value <= 0.0 {
-        return Err(RunError::Parameter {
-            name: "max_area",
-            value,
-            range: "positive and finite",
-        });
+        return Err(RunError::Parameter { name: "max_area", value, range: "positive and finite" });
     }
     match in_window(value, -2 * scale.exponent) {
         Some(bound) => Ok(Some(bound)),
         // a normalised domain has an area of at most 4
         None if scale::exponent_of(value) - 2 * scale.exponent > 0 => Ok(None),
-        None => Err(RunError::Parameter {
-            name: "max_area",
-            value,
-            range: "at least 2^-400 of the squared extent",
-        }),
+        None => Err(RunError::Parameter { name: "max_area", value, range: "at least 2^-400 of the squared extent" }),
     }
 }
 

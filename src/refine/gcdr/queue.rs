@@ -68,22 +68,11 @@ pub(super) struct Queue {
 
 impl Queue {
     pub(super) fn new(order: QueueOrder) -> Queue {
-        Queue {
-            order,
-            first: (Badness::Skinny, 0),
-            heap: Vec::new(),
-            later: BTreeMap::new(),
-        }
+        Queue { order, first: (Badness::Skinny, 0), heap: Vec::new(), later: BTreeMap::new() }
     }
 
     /// Adds triangle t; `bound` is the area bound or h (unused for skinny triangles).
-    pub(super) fn push<K: Kernel>(
-        &mut self,
-        cdt: &Cdt2<K>,
-        t: TriId,
-        badness: Badness,
-        bound: f64,
-    ) {
+    pub(super) fn push<K: Kernel>(&mut self, cdt: &Cdt2<K>, t: TriId, badness: Badness, bound: f64) {
         let (corners, birth) = (cdt.corners(t), cdt.birth(t));
         let key = match (self.order, badness) {
             (QueueOrder::ShortestEdge, Badness::Skinny) => {
@@ -99,24 +88,14 @@ impl Queue {
             (QueueOrder::Fifo | QueueOrder::ShortestEdge, _) => u64::from(birth) << BIRTH_SHIFT,
         };
         let ids = canonical_triangle(cdt.vertices(t));
-        let bad = Bad {
-            key,
-            bound,
-            t,
-            birth,
-            ids,
-            badness,
-        };
+        let bad = Bad { key, bound, t, birth, ids, badness };
         let shift = match (self.order, badness) {
-            (QueueOrder::WorstFirst, _) | (QueueOrder::ShortestEdge, Badness::Skinny) => {
-                FLOAT_SHIFT
-            }
+            (QueueOrder::WorstFirst, _) | (QueueOrder::ShortestEdge, Badness::Skinny) => FLOAT_SHIFT,
             (QueueOrder::Fifo | QueueOrder::ShortestEdge, _) => BUCKET_OF_BIRTH_SHIFT,
         };
         let bucket = (badness, key >> shift);
         if !self.heap.is_empty() && bucket < self.first {
-            self.later
-                .insert(self.first, std::mem::take(&mut self.heap));
+            self.later.insert(self.first, std::mem::take(&mut self.heap));
         }
         if self.heap.is_empty() && self.later.keys().next().is_none_or(|&next| bucket < next) {
             self.first = bucket;
@@ -180,9 +159,7 @@ impl Queue {
         if a.key != b.key {
             return a.key < b.key;
         }
-        self.exact(cdt, a, b)
-            .then_with(|| sorted(a.ids).cmp(&sorted(b.ids)))
-            .is_lt()
+        self.exact(cdt, a, b).then_with(|| sorted(a.ids).cmp(&sorted(b.ids))).is_lt()
     }
 
     /// The exact order of two entries with equal keys.
@@ -196,9 +173,7 @@ impl Queue {
                 K::compare_lengths(p, q, r, s)
             }
             (QueueOrder::WorstFirst, Badness::Skinny) => K::compare_ratio(corners(b), corners(a)),
-            (QueueOrder::WorstFirst, Badness::Area) => {
-                K::compare_area_ratio(corners(b), b.bound, corners(a), a.bound)
-            }
+            (QueueOrder::WorstFirst, Badness::Area) => K::compare_area_ratio(corners(b), b.bound, corners(a), a.bound),
             (QueueOrder::WorstFirst, Badness::Size) => {
                 K::compare_radius_ratio(corners(b), b.bound, corners(a), a.bound)
             }
@@ -215,11 +190,7 @@ fn sorted(mut t: Triangle) -> Triangle {
 /// The shortest edge of a triangle as two corner indices, counterclockwise; of equal ones that with the smallest ids.
 pub(super) fn shortest_edge<K: Kernel>(ids: Triangle, c: [Point2; 3]) -> [usize; 2] {
     let ids_of = |[i, j]: [usize; 2]| {
-        if ids[i] < ids[j] {
-            [ids[i], ids[j]]
-        } else {
-            [ids[j], ids[i]]
-        }
+        if ids[i] < ids[j] { [ids[i], ids[j]] } else { [ids[j], ids[i]] }
     };
     let mut best = [0, 1];
     for edge in [[1, 2], [2, 0]] {

@@ -25,11 +25,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
     }
 
     pub(super) fn note_interval(&mut self, s: [VertexId; 2], kind: SplitKind, p: Point2) {
-        let delta = if kind == SplitKind::B {
-            self.params.d1
-        } else {
-            self.params.mu
-        };
+        let delta = if kind == SplitKind::B { self.params.d1 } else { self.params.mu };
         let [u, v] = s.map(|v| self.cdt.point(v));
         self.note(|delta| K::in_selection_interval(u, v, delta, p), delta);
     }
@@ -38,11 +34,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         if self.stray == Stray::Outside || holds(delta) {
             return;
         }
-        self.stray = if holds(slackened(delta)) {
-            Stray::Rounded
-        } else {
-            Stray::Outside
-        };
+        self.stray = if holds(slackened(delta)) { Stray::Rounded } else { Stray::Outside };
     }
 
     pub(super) fn user_disk(
@@ -54,11 +46,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         if self.params.choice_a != DiskChoice::User {
             return Ok(center);
         }
-        let chooser = self
-            .options
-            .chooser
-            .as_mut()
-            .ok_or(RunError::MissingFunction)?;
+        let chooser = self.options.chooser.as_mut().ok_or(RunError::MissingFunction)?;
         let request = DiskRequest {
             corners: corners.map(|p| self.scale.to_input(p)),
             ids,
@@ -68,10 +56,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         let point = chooser.in_disk(&request);
         self.storable(point)
             .filter(|&p| K::in_selection_disk(corners, slackened(self.params.d2), p))
-            .ok_or_else(|| RunError::RegionViolation {
-                point,
-                place: format!("triangle {ids:?}"),
-            })
+            .ok_or_else(|| RunError::RegionViolation { point, place: format!("triangle {ids:?}") })
     }
 
     pub(super) fn user_interval(
@@ -84,26 +69,13 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         if choice != Choice::User {
             return Ok(chosen);
         }
-        let chooser = self
-            .options
-            .chooser
-            .as_mut()
-            .ok_or(RunError::MissingFunction)?;
+        let chooser = self.options.chooser.as_mut().ok_or(RunError::MissingFunction)?;
         let [u, v] = ids.map(|v| self.cdt.point(v));
-        let request = IntervalRequest {
-            ends: [u, v].map(|p| self.scale.to_input(p)),
-            ids,
-            delta,
-        };
+        let request = IntervalRequest { ends: [u, v].map(|p| self.scale.to_input(p)), ids, delta };
         let point = chooser.in_interval(&request);
         self.storable(point)
-            .filter(|&p| {
-                K::in_selection_interval(u, v, slackened(delta), p) && is_near_line(u, v, p)
-            })
-            .ok_or_else(|| RunError::RegionViolation {
-                point,
-                place: format!("subsegment {ids:?}"),
-            })
+            .filter(|&p| K::in_selection_interval(u, v, slackened(delta), p) && is_near_line(u, v, p))
+            .ok_or_else(|| RunError::RegionViolation { point, place: format!("subsegment {ids:?}") })
     }
 
     /// A user's point in normalised units, if a trace can hold it: coordinates +0 or of 2^-142 to 2^200. (-0 is 0.)
@@ -123,10 +95,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
 fn is_near_line(u: Point2, v: Point2, p: Point2) -> bool {
     let of = |x: f64| Dyadic::from_f64(x).unwrap_or_else(|| Dyadic::integer(0));
     let minus = |a: f64, b: f64| &of(a) - &of(b);
-    let size = [u.x, u.y, v.x, v.y]
-        .map(f64::abs)
-        .into_iter()
-        .fold(0.0, f64::max);
+    let size = [u.x, u.y, v.x, v.y].map(f64::abs).into_iter().fold(0.0, f64::max);
     let tolerance = size * by_power_of_two(1.0, -50) + by_power_of_two(1.0, -140);
     let cross = &(&minus(v.x, u.x) * &minus(p.y, u.y)) - &(&minus(v.y, u.y) * &minus(p.x, u.x));
     let extent = &minus(u.x.max(v.x), u.x.min(v.x)) + &minus(u.y.max(v.y), u.y.min(v.y));
@@ -138,9 +107,5 @@ fn is_near_line(u: Point2, v: Point2, p: Point2) -> bool {
 pub(super) fn slackened(delta: f64) -> f64 {
     let exact = |x: f64| Dyadic::from_f64(x).unwrap_or_else(|| Dyadic::integer(0));
     let rounded = delta * (1.0 - SLACK);
-    if exact(rounded) > &exact(delta) * &exact(1.0 - SLACK) {
-        rounded.next_down()
-    } else {
-        rounded
-    }
+    if exact(rounded) > &exact(delta) * &exact(1.0 - SLACK) { rounded.next_down() } else { rounded }
 }

@@ -36,10 +36,7 @@ pub(crate) fn convex_sectors<K: Kernel>(cdt: &Cdt2<K>, v: VertexId) -> Vec<[Half
             }
         };
         if let Some(end) = end {
-            let (a, b) = (
-                cdt.point(cdt.destination(first)),
-                cdt.point(cdt.origin(end)),
-            );
+            let (a, b) = (cdt.point(cdt.destination(first)), cdt.point(cdt.origin(end)));
             if K::orient2d(cdt.point(v), a, b).is_positive() {
                 sectors.push([first, end]);
             }
@@ -102,32 +99,17 @@ impl<K: Kernel> Refiner<'_, '_, K> {
     }
 
     /// The rung of a point that splits uv: 2^k on a shell; halfway between two rungs of one apex for a midpoint.
-    pub(super) fn rung(
-        &self,
-        s: [VertexId; 2],
-        kind: SplitKind,
-        shell: Option<Shell>,
-    ) -> Option<Rung> {
+    pub(super) fn rung(&self, s: [VertexId; 2], kind: SplitKind, shell: Option<Shell>) -> Option<Rung> {
         if let Some(Shell { apex, k }) = shell {
-            return Some(Rung {
-                apex,
-                distance: scale::by_power_of_two(1.0, k),
-            });
+            return Some(Rung { apex, distance: scale::by_power_of_two(1.0, k) });
         }
-        let choice = if kind == SplitKind::B {
-            self.params.choice_b
-        } else {
-            self.params.choice_c
-        };
+        let choice = if kind == SplitKind::B { self.params.choice_b } else { self.params.choice_c };
         let rung_of = |v: VertexId| match self.kinds[v.index()] {
             Kind::Segment { rung, .. } => rung,
             _ => None,
         };
         let [a, b] = [rung_of(s[0])?, rung_of(s[1])?];
         let halfway = choice == Choice::Center && a.apex == b.apex;
-        halfway.then_some(Rung {
-            apex: a.apex,
-            distance: (a.distance + b.distance) / 2.0,
-        })
+        halfway.then_some(Rung { apex: a.apex, distance: (a.distance + b.distance) / 2.0 })
     }
 }

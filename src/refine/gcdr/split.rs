@@ -62,37 +62,26 @@ impl<K: Kernel> Refiner<'_, '_, K> {
             [true, true] => return Ok((K::midpoint(ends[0], ends[1]), None)),
             [false, false] => {}
             [at_u, _] => {
-                let (apex, from, to) = if at_u {
-                    (s[0], ends[0], ends[1])
-                } else {
-                    (s[1], ends[1], ends[0])
-                };
+                let (apex, from, to) = if at_u { (s[0], ends[0], ends[1]) } else { (s[1], ends[1], ends[0]) };
                 let k = K::shell_exponent(ends[0], ends[1]);
                 return Ok((K::at_distance(from, to, k), Some(Shell { apex, k })));
             }
         }
-        let (choice, delta) = if type_c {
-            (self.params.choice_c, self.params.mu)
-        } else {
-            (self.params.choice_b, self.params.d1)
-        };
+        let (choice, delta) =
+            if type_c { (self.params.choice_c, self.params.mu) } else { (self.params.choice_b, self.params.d1) };
         let chosen = on_segment::<K>(&self.params, choice, delta, ends, self.draws());
         let p = self.user_interval(choice, s, delta, chosen)?;
         Ok((p, None))
     }
 
     /// The free vertices that the split at p deletes, ascending.
-    pub(super) fn to_delete(&mut self, s: [VertexId; 2], p: Point2) -> Vec<VertexId> {
+    pub(super) fn doomed_by(&mut self, s: [VertexId; 2], p: Point2) -> Vec<VertexId> {
         let [u, v] = s.map(|v| self.cdt.point(v));
         let disks = [[u, v], [u, p], [p, v]];
         let mut found = match self.params.deletion {
             DeletionPolicy::Disk => self.all_in(&disks),
             // p exactly on s: the small disks lie in Diam(s), and no vertex is seen there unless an apex of s is
-            _ if K::orient2d(u, v, p) == crate::model::Sign::Zero
-                && !self.an_apex_encroaches(s) =>
-            {
-                Vec::new()
-            }
+            _ if K::orient2d(u, v, p) == crate::model::Sign::Zero && !self.an_apex_encroaches(s) => Vec::new(),
             _ => self.vertices_near(s, &disks),
         };
         found.retain(|&w| {
@@ -108,19 +97,12 @@ impl<K: Kernel> Refiner<'_, '_, K> {
     }
 
     /// The parent of a Type-C point: the closest to p of the vertices that see it, ties by id.
-    pub(super) fn parent(
-        &self,
-        s: [VertexId; 2],
-        p: Point2,
-        mut near: Vec<VertexId>,
-    ) -> Result<VertexId, SkipReason> {
+    pub(super) fn parent(&self, s: [VertexId; 2], p: Point2, mut near: Vec<VertexId>) -> Result<VertexId, SkipReason> {
         near.sort_by(|&a, &b| {
             let (pa, pb) = (self.cdt.point(a), self.cdt.point(b));
             K::compare_lengths(p, pa, p, pb).then(a.cmp(&b))
         });
-        near.into_iter()
-            .find(|&w| self.cdt.sees(w, s, Target::Point(p)))
-            .ok_or(SkipReason::Resolution)
+        near.into_iter().find(|&w| self.cdt.sees(w, s, Target::Point(p))).ok_or(SkipReason::Resolution)
     }
 
     /// Whether p is in conflict with the triangles at s, and every triangle that the split makes there is positively
@@ -132,14 +114,8 @@ impl<K: Kernel> Refiner<'_, '_, K> {
                 && K::orient2d(p, to, apex).is_positive()
                 && K::in_conflict([from, to, apex], p)
         };
-        let left = self
-            .cdt
-            .find_edge(u, v)
-            .map(|e| self.cdt.point(self.cdt.apex(e)));
-        let right = self
-            .cdt
-            .find_edge(v, u)
-            .map(|e| self.cdt.point(self.cdt.apex(e)));
+        let left = self.cdt.find_edge(u, v).map(|e| self.cdt.point(self.cdt.apex(e)));
+        let right = self.cdt.find_edge(v, u).map(|e| self.cdt.point(self.cdt.apex(e)));
         left.is_none_or(|a| proper(pu, pv, a)) && right.is_none_or(|b| proper(pv, pu, b))
     }
 
@@ -149,10 +125,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         self.flood_number += 1;
         let mut found = Vec::new();
         let mut todo: Vec<TriId> = Vec::new();
-        for e in [self.cdt.find_edge(u, v), self.cdt.find_edge(v, u)]
-            .into_iter()
-            .flatten()
-        {
+        for e in [self.cdt.find_edge(u, v), self.cdt.find_edge(v, u)].into_iter().flatten() {
             todo.push(self.cdt.triangle_of(e));
         }
         while let Some(t) = todo.pop() {
@@ -166,9 +139,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
                     found.push(a);
                 }
                 if self.cdt.segment(e).is_none()
-                    && disks
-                        .iter()
-                        .any(|&[c, d]| K::edge_meets_diametral_disk(c, d, pa, pb))
+                    && disks.iter().any(|&[c, d]| K::edge_meets_diametral_disk(c, d, pa, pb))
                     && let Some(twin) = self.cdt.twin(e)
                 {
                     todo.push(self.cdt.triangle_of(twin));
@@ -195,15 +166,11 @@ impl<K: Kernel> Refiner<'_, '_, K> {
     fn all_in(&self, disks: &[Diameter]) -> Vec<VertexId> {
         (0..self.kinds.len() as u32)
             .map(VertexId)
-            .filter(|&w| {
-                is_inside::<K>(self.cdt.point(w), disks) && self.cdt.edge_from(w).is_some()
-            })
+            .filter(|&w| is_inside::<K>(self.cdt.point(w), disks) && self.cdt.edge_from(w).is_some())
             .collect()
     }
 }
 
 fn is_inside<K: Kernel>(w: Point2, disks: &[Diameter]) -> bool {
-    disks
-        .iter()
-        .any(|&[c, d]| K::in_diametral_circle(c, d, w).is_positive())
+    disks.iter().any(|&[c, d]| K::in_diametral_circle(c, d, w).is_positive())
 }

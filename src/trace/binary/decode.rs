@@ -1,13 +1,8 @@
 //! Bytes to records, without trust in any of them.
 
 use super::*;
-use crate::model::{
-    Edge, GcdrParameters, Point2, Region, Segment, SegmentId, Triangle, VertexId,
-    canonical_triangle,
-};
-use crate::trace::record::{
-    Algorithm, Cause, Counts, End, Event, Header, Record, Shell, SkipReason, SplitKind, Why,
-};
+use crate::model::{Edge, GcdrParameters, Point2, Region, Segment, SegmentId, Triangle, VertexId, canonical_triangle};
+use crate::trace::record::{Algorithm, Cause, Counts, End, Event, Header, Record, Shell, SkipReason, SplitKind, Why};
 
 /// Why no record could be decoded.
 #[derive(Debug, PartialEq, Eq)]
@@ -39,42 +34,20 @@ impl Cursor<'_> {
         Ok(match kind {
             tag::VERTEX | tag::VERTEX_MARKED => {
                 let at = self.point()?;
-                let marker = if kind == tag::VERTEX_MARKED {
-                    Some(self.signed()?)
-                } else {
-                    None
-                };
-                Record::Vertex {
-                    at,
-                    marker,
-                    attributes: self.list(8, Self::f64)?,
-                }
+                let marker = if kind == tag::VERTEX_MARKED { Some(self.signed()?) } else { None };
+                Record::Vertex { at, marker, attributes: self.list(8, Self::f64)? }
             }
             tag::SEGMENT | tag::SEGMENT_TOGGLES => {
                 let ends = [VertexId(self.u32()?), VertexId(self.u32()?)];
-                Record::Segment(Segment {
-                    ends,
-                    marker: self.signed()?,
-                    toggles: kind == tag::SEGMENT_TOGGLES,
-                })
+                Record::Segment(Segment { ends, marker: self.signed()?, toggles: kind == tag::SEGMENT_TOGGLES })
             }
             tag::HOLE => Record::Hole(self.point()?),
             tag::REGION | tag::REGION_BOUNDED => {
                 let (seed, attribute) = (self.point()?, self.f64()?);
-                let max_area = if kind == tag::REGION_BOUNDED {
-                    Some(self.f64()?)
-                } else {
-                    None
-                };
-                Record::Region(Region {
-                    seed,
-                    attribute,
-                    max_area,
-                })
+                let max_area = if kind == tag::REGION_BOUNDED { Some(self.f64()?) } else { None };
+                Record::Region(Region { seed, attribute, max_area })
             }
-            tag::START => Record::Start {
-                triangles: self.u32()?,
-            },
+            tag::START => Record::Start { triangles: self.u32()? },
             tag::TRIANGLE => {
                 let a = self.above(first_of(state))?;
                 Record::Triangle([a, self.above(a.0)?, self.above(a.0)?])
@@ -90,11 +63,7 @@ impl Cursor<'_> {
             tag::FREE if flags < 4 => {
                 let cause = self.cause(flags)?;
                 let p = self.point()?;
-                Ok(Event::Insert {
-                    p,
-                    why: Why::Free { cause },
-                    destroyed: self.triangles(next)?,
-                })
+                Ok(Event::Insert { p, why: Why::Free { cause }, destroyed: self.triangles(next)? })
             }
             tag::SPLIT => {
                 let cause = self.cause(flags)?;
@@ -102,49 +71,27 @@ impl Cursor<'_> {
                 let s: Edge = [self.id(next)?, self.id(next)?];
                 let t = self.triangle(next)?;
                 let a = self.point()?;
-                let kind = if flags & tag::TYPE_C != 0 {
-                    SplitKind::C {
-                        parent: self.id(next)?,
-                    }
-                } else {
-                    SplitKind::B
-                };
+                let kind =
+                    if flags & tag::TYPE_C != 0 { SplitKind::C { parent: self.id(next)? } } else { SplitKind::B };
                 let shell = if flags & tag::SHELL != 0 {
-                    Some(Shell {
-                        apex: self.id(next)?,
-                        k: self.signed()?,
-                    })
+                    Some(Shell { apex: self.id(next)?, k: self.signed()? })
                 } else {
                     None
                 };
                 Ok(Event::Insert {
                     p,
-                    why: Why::Split {
-                        kind,
-                        s,
-                        t,
-                        cause,
-                        a,
-                        shell,
-                    },
+                    why: Why::Split { kind, s, t, cause, a, shell },
                     destroyed: self.triangles(next)?,
                 })
             }
-            tag::REMOVE if flags == 0 => Ok(Event::Remove {
-                id: self.id(next)?,
-                created: self.triangles(next)?,
-            }),
+            tag::REMOVE if flags == 0 => Ok(Event::Remove { id: self.id(next)?, created: self.triangles(next)? }),
             tag::SKIP => {
                 let cause = self.cause(flags)?;
                 let t = self.triangle(next)?;
                 let reason = match flags >> 2 {
                     0 => SkipReason::Resolution,
-                    1 => SkipReason::InputAngle {
-                        apex: self.id(next)?,
-                    },
-                    2 => SkipReason::SplitLimit {
-                        segment: SegmentId(self.u32()?),
-                    },
+                    1 => SkipReason::InputAngle { apex: self.id(next)? },
+                    2 => SkipReason::SplitLimit { segment: SegmentId(self.u32()?) },
                     _ => return self.bad("no reason of a skip has this number"),
                 };
                 Ok(Event::Skip { t, cause, reason })
@@ -177,11 +124,7 @@ impl Cursor<'_> {
             }
             let earlier = list[i - 1 - back];
             let apex = self.id(next)?;
-            list.push(canonical_triangle([
-                earlier[(edge + 1) % 3],
-                earlier[edge],
-                apex,
-            ]));
+            list.push(canonical_triangle([earlier[(edge + 1) % 3], earlier[edge], apex]));
         }
         Ok(list)
     }
@@ -214,9 +157,7 @@ impl Cursor<'_> {
         }
         let version = self.byte()?;
         if version != VERSION {
-            return self.bad(format!(
-                "version {version} of the format; this program reads version {VERSION}"
-            ));
+            return self.bad(format!("version {version} of the format; this program reads version {VERSION}"));
         }
         if self.byte()? != tag::HEADER {
             return self.bad("the header is missing");
@@ -228,11 +169,7 @@ impl Cursor<'_> {
             1 => Algorithm::Gcdr(self.parameters()?),
             _ => return self.bad("no algorithm has this number"),
         };
-        Ok(Header {
-            algorithm,
-            level,
-            fill,
-        })
+        Ok(Header { algorithm, level, fill })
     }
 
     fn parameters(&mut self) -> Result<GcdrParameters, Fault> {
@@ -255,11 +192,7 @@ impl Cursor<'_> {
             deletion,
             small_angles,
             kappa: if has(0) { Some(self.f64()?) } else { None },
-            extreme: if has(1) {
-                Some(self.choice(&VERTICES)?)
-            } else {
-                None
-            },
+            extreme: if has(1) { Some(self.choice(&VERTICES)?) } else { None },
             seed: if has(2) { Some(self.u64()?) } else { None },
             max_area: if has(3) { Some(self.f64()?) } else { None },
             size_function: has(4),
@@ -290,23 +223,12 @@ impl Cursor<'_> {
             removed: self.u32()?,
             unmet: self.u32()?,
         };
-        Ok(End {
-            outcome,
-            stop_reason,
-            level_effective,
-            counts,
-            mesh: self.digest()?,
-            trace: self.digest()?,
-        })
+        Ok(End { outcome, stop_reason, level_effective, counts, mesh: self.digest()?, trace: self.digest()? })
     }
 
     fn digest(&mut self) -> Result<String, Fault> {
         let digit = |v: u8| char::from(if v < 10 { b'0' + v } else { b'a' + v - 10 });
-        Ok(self
-            .take(32)?
-            .iter()
-            .flat_map(|b| [digit(b >> 4), digit(b & 15)])
-            .collect())
+        Ok(self.take(32)?.iter().flat_map(|b| [digit(b >> 4), digit(b & 15)]).collect())
     }
 
     fn choice<T: Copy>(&mut self, all: &[T]) -> Result<T, Fault> {
@@ -316,11 +238,7 @@ impl Cursor<'_> {
         }
     }
 
-    fn list<T>(
-        &mut self,
-        least: usize,
-        one: impl Fn(&mut Self) -> Result<T, Fault>,
-    ) -> Result<Vec<T>, Fault> {
+    fn list<T>(&mut self, least: usize, one: impl Fn(&mut Self) -> Result<T, Fault>) -> Result<Vec<T>, Fault> {
         let count = self.count(least)?;
         let mut list = Vec::with_capacity(count);
         for _ in 0..count {
@@ -333,11 +251,7 @@ impl Cursor<'_> {
     /// count's word alone.
     fn count(&mut self, least: usize) -> Result<usize, Fault> {
         let count = usize::try_from(self.u64()?).map_err(|_| Fault::Short)?;
-        if count > (self.bytes.len() - self.at) / least {
-            Err(Fault::Short)
-        } else {
-            Ok(count)
-        }
+        if count > (self.bytes.len() - self.at) / least { Err(Fault::Short) } else { Ok(count) }
     }
 
     fn point(&mut self) -> Result<Point2, Fault> {
@@ -348,11 +262,7 @@ impl Cursor<'_> {
         let mut bits = [0; 8];
         bits.copy_from_slice(self.take(8)?);
         let x = f64::from_bits(u64::from_le_bytes(bits));
-        if x.is_finite() {
-            Ok(x)
-        } else {
-            self.bad("a number that is not finite")
-        }
+        if x.is_finite() { Ok(x) } else { self.bad("a number that is not finite") }
     }
 
     fn signed(&mut self) -> Result<i32, Fault> {

@@ -2,24 +2,14 @@
 
 use super::*;
 use crate::model::{GcdrParameters, Point2, Region, Segment, Triangle, VertexId};
-use crate::trace::record::{
-    Algorithm, Cause, End, Event, Header, Record, Shell, SkipReason, SplitKind, Why,
-};
+use crate::trace::record::{Algorithm, Cause, End, Event, Header, Record, Shell, SkipReason, SplitKind, Why};
 
 /// Appends the binary form of a record that `state` admits; of an end, all but the digest of the trace.
 pub(in crate::trace) fn encode(record: &Record, state: &State, out: &mut Vec<u8>) {
     match record {
         Record::Header(header) => put_header(out, header),
-        Record::Vertex {
-            at,
-            marker,
-            attributes,
-        } => {
-            out.push(if marker.is_some() {
-                tag::VERTEX_MARKED
-            } else {
-                tag::VERTEX
-            });
+        Record::Vertex { at, marker, attributes } => {
+            out.push(if marker.is_some() { tag::VERTEX_MARKED } else { tag::VERTEX });
             put_point(out, *at);
             if let Some(marker) = marker {
                 put_signed(out, *marker);
@@ -27,16 +17,8 @@ pub(in crate::trace) fn encode(record: &Record, state: &State, out: &mut Vec<u8>
             put(out, attributes.len() as u64);
             attributes.iter().for_each(|a| put_f64(out, *a));
         }
-        Record::Segment(Segment {
-            ends,
-            marker,
-            toggles,
-        }) => {
-            out.push(if *toggles {
-                tag::SEGMENT_TOGGLES
-            } else {
-                tag::SEGMENT
-            });
+        Record::Segment(Segment { ends, marker, toggles }) => {
+            out.push(if *toggles { tag::SEGMENT_TOGGLES } else { tag::SEGMENT });
             ends.iter().for_each(|v| put(out, u64::from(v.0)));
             put_signed(out, *marker);
         }
@@ -44,16 +26,8 @@ pub(in crate::trace) fn encode(record: &Record, state: &State, out: &mut Vec<u8>
             out.push(tag::HOLE);
             put_point(out, *at);
         }
-        Record::Region(Region {
-            seed,
-            attribute,
-            max_area,
-        }) => {
-            out.push(if max_area.is_some() {
-                tag::REGION_BOUNDED
-            } else {
-                tag::REGION
-            });
+        Record::Region(Region { seed, attribute, max_area }) => {
+            out.push(if max_area.is_some() { tag::REGION_BOUNDED } else { tag::REGION });
             put_point(out, *seed);
             put_f64(out, *attribute);
             max_area.iter().for_each(|a| put_f64(out, *a));
@@ -75,33 +49,13 @@ pub(in crate::trace) fn encode(record: &Record, state: &State, out: &mut Vec<u8>
 
 fn put_event(out: &mut Vec<u8>, event: &Event, next: u32) {
     match event {
-        Event::Insert {
-            p,
-            why: Why::Free { cause },
-            destroyed,
-        } => {
+        Event::Insert { p, why: Why::Free { cause }, destroyed } => {
             put_cause(out, tag::FREE, cause);
             put_point(out, *p);
             put_triangles(out, destroyed, next);
         }
-        Event::Insert {
-            p,
-            why:
-                Why::Split {
-                    kind,
-                    s,
-                    t,
-                    cause,
-                    a,
-                    shell,
-                },
-            destroyed,
-        } => {
-            let c = if let SplitKind::C { .. } = kind {
-                tag::TYPE_C
-            } else {
-                0
-            };
+        Event::Insert { p, why: Why::Split { kind, s, t, cause, a, shell }, destroyed } => {
+            let c = if let SplitKind::C { .. } = kind { tag::TYPE_C } else { 0 };
             let on_shell = if shell.is_some() { tag::SHELL } else { 0 };
             put_cause(out, tag::SPLIT | c | on_shell, cause);
             put_point(out, *p);
@@ -212,9 +166,7 @@ fn put_header(out: &mut Vec<u8>, header: &Header) {
 }
 
 fn put_parameters(out: &mut Vec<u8>, p: &GcdrParameters) {
-    [p.rho2, p.d1, p.d2, p.mu]
-        .into_iter()
-        .for_each(|x| put_f64(out, x));
+    [p.rho2, p.d1, p.d2, p.mu].into_iter().for_each(|x| put_f64(out, x));
     put_choice(out, &DISK_CHOICES, p.choice_a);
     put_choice(out, &CHOICES, p.choice_b);
     put_choice(out, &CHOICES, p.choice_c);
@@ -229,16 +181,9 @@ fn put_parameters(out: &mut Vec<u8>, p: &GcdrParameters) {
         p.size_function,
         p.max_splits.is_some(),
     ];
-    out.push(
-        present
-            .iter()
-            .rev()
-            .fold(0, |bits, &b| bits << 1 | u8::from(b)),
-    );
+    out.push(present.iter().rev().fold(0, |bits, &b| bits << 1 | u8::from(b)));
     p.kappa.iter().for_each(|x| put_f64(out, *x));
-    p.extreme
-        .iter()
-        .for_each(|x| put_choice(out, &VERTICES, *x));
+    p.extreme.iter().for_each(|x| put_choice(out, &VERTICES, *x));
     p.seed.iter().for_each(|x| put(out, *x));
     p.max_area.iter().for_each(|x| put_f64(out, *x));
     p.max_splits.iter().for_each(|x| put(out, u64::from(*x)));
@@ -257,42 +202,23 @@ fn put_end(out: &mut Vec<u8>, end: &End) {
         }
     }
     let c = &end.counts;
-    [
-        c.vertices,
-        c.triangles,
-        c.type_a,
-        c.type_b,
-        c.type_c,
-        c.removed,
-        c.unmet,
-    ]
-    .into_iter()
-    .for_each(|n| put(out, u64::from(n)));
+    [c.vertices, c.triangles, c.type_a, c.type_b, c.type_c, c.removed, c.unmet]
+        .into_iter()
+        .for_each(|n| put(out, u64::from(n)));
     put_digest(out, &end.mesh);
 }
 
 /// Appends the bytes of 64 hexadecimal digits.
 pub(in crate::trace) fn put_digest(out: &mut Vec<u8>, hex: &str) {
     let value = |b: u8| {
-        if b.is_ascii_digit() {
-            b - b'0'
-        } else {
-            b - b'a' + 10
-        }
+        if b.is_ascii_digit() { b - b'0' } else { b - b'a' + 10 }
     };
-    out.extend(
-        hex.as_bytes()
-            .chunks_exact(2)
-            .map(|pair| value(pair[0]) << 4 | value(pair[1])),
-    );
+    out.extend(hex.as_bytes().chunks_exact(2).map(|pair| value(pair[0]) << 4 | value(pair[1])));
 }
 
 fn put_choice<T: PartialEq>(out: &mut Vec<u8>, all: &[T], one: T) {
     // The tables above list every variant.
-    let number = all
-        .iter()
-        .position(|x| *x == one)
-        .expect("a variant missing from its table");
+    let number = all.iter().position(|x| *x == one).expect("a variant missing from its table");
     out.push(number as u8);
 }
 

@@ -13,9 +13,7 @@ pub(in crate::trace) use encode::{encode, put_digest};
 
 use super::grammar::State;
 use super::record::Outcome;
-use crate::model::{
-    Choice, DeletionPolicy, DiskChoice, Fill, Level, QueueOrder, SmallAngles, VertexOfTriangle,
-};
+use crate::model::{Choice, DeletionPolicy, DiskChoice, Fill, Level, QueueOrder, SmallAngles, VertexOfTriangle};
 
 /// The first four bytes; the first is no ASCII character, so that no text file starts with it.
 pub(super) const MAGIC: [u8; 4] = *b"\x89OBT";
@@ -32,34 +30,12 @@ const DISK_CHOICES: [DiskChoice; 6] = [
     DiskChoice::ClampedOffcenter,
     DiskChoice::User,
 ];
-const CHOICES: [Choice; 4] = [
-    Choice::Center,
-    Choice::Extreme,
-    Choice::Random,
-    Choice::User,
-];
-const ORDERS: [QueueOrder; 3] = [
-    QueueOrder::Fifo,
-    QueueOrder::WorstFirst,
-    QueueOrder::ShortestEdge,
-];
-const DELETIONS: [DeletionPolicy; 3] = [
-    DeletionPolicy::Segment,
-    DeletionPolicy::Point,
-    DeletionPolicy::Disk,
-];
+const CHOICES: [Choice; 4] = [Choice::Center, Choice::Extreme, Choice::Random, Choice::User];
+const ORDERS: [QueueOrder; 3] = [QueueOrder::Fifo, QueueOrder::WorstFirst, QueueOrder::ShortestEdge];
+const DELETIONS: [DeletionPolicy; 3] = [DeletionPolicy::Segment, DeletionPolicy::Point, DeletionPolicy::Disk];
 const SMALL_ANGLES: [SmallAngles; 2] = [SmallAngles::Shells, SmallAngles::Off];
-const VERTICES: [VertexOfTriangle; 3] = [
-    VertexOfTriangle::First,
-    VertexOfTriangle::Newest,
-    VertexOfTriangle::Seeded,
-];
-const LEVELS: [Option<Level>; 4] = [
-    None,
-    Some(Level::Outside),
-    Some(Level::Admissible),
-    Some(Level::Graded),
-];
+const VERTICES: [VertexOfTriangle; 3] = [VertexOfTriangle::First, VertexOfTriangle::Newest, VertexOfTriangle::Seeded];
+const LEVELS: [Option<Level>; 4] = [None, Some(Level::Outside), Some(Level::Admissible), Some(Level::Graded)];
 const FILLS: [Fill; 3] = [Fill::Seeds, Fill::Parity, Fill::Convex];
 const OUTCOMES: [Outcome; 3] = [Outcome::Complete, Outcome::Holey, Outcome::Stopped];
 

@@ -79,9 +79,7 @@ impl<K: Kernel> Cdt2<K> {
 fn duplicate(points: &[Point2]) -> Option<BuildError> {
     let mut ids: Vec<u32> = (0u32..).zip(points).map(|(i, _)| i).collect();
     ids.sort_by(|&a, &b| lexicographic(points[a as usize], points[b as usize]).then(a.cmp(&b)));
-    let equal = ids
-        .windows(2)
-        .filter(|w| points[w[0] as usize] == points[w[1] as usize]);
+    let equal = ids.windows(2).filter(|w| points[w[0] as usize] == points[w[1] as usize]);
     let (a, b) = equal.map(|w| (w[0], w[1])).min()?;
     Some(BuildError::Duplicate(VertexId(a), VertexId(b)))
 }
@@ -96,29 +94,16 @@ impl<K: Kernel> Builder<K> {
             _ => [0, 1, off as u32],
         };
         let mut cells = Vec::with_capacity(2 * points.len() + 2);
-        cells.push(Cell {
-            v,
-            twin: [4, 8, 12],
-        });
+        cells.push(Cell { v, twin: [4, 8, 12] });
         for k in 0..3u32 {
             // Ghost k + 1 over edge k. Its edge 1 leads to the infinite vertex from the start of edge k.
             let [x, y] = [v[k as usize], v[SUCC[k as usize] as usize]];
             let before = 4 * (PRED[k as usize] + 1);
             let after = 4 * (SUCC[k as usize] + 1);
-            cells.push(Cell {
-                v: [y, x, INFINITE],
-                twin: [k, before + 2, after + 1],
-            });
+            cells.push(Cell { v: [y, x, INFINITE], twin: [k, before + 2, after + 1] });
         }
         let (stack, zone, rim) = (Vec::new(), Vec::new(), Vec::new());
-        Some(Builder {
-            points,
-            cells,
-            stack,
-            zone,
-            rim,
-            kernel: PhantomData,
-        })
+        Some(Builder { points, cells, stack, zone, rim, kernel: PhantomData })
     }
 
     fn insert_all(&mut self) -> Result<(), Repeated> {
@@ -214,10 +199,7 @@ impl<K: Kernel> Builder<K> {
             if self.in_conflict(&cell.v, q) {
                 self.zone.push(e >> 2);
                 let k = e & 3;
-                let (after, before) = (
-                    cell.twin[SUCC[k as usize] as usize],
-                    cell.twin[PRED[k as usize] as usize],
-                );
+                let (after, before) = (cell.twin[SUCC[k as usize] as usize], cell.twin[PRED[k as usize] as usize]);
                 self.stack.extend([before, after]);
             } else {
                 self.rim.push((cell.v[SUCC[(e & 3) as usize] as usize], e));
@@ -229,16 +211,9 @@ impl<K: Kernel> Builder<K> {
     fn star(&mut self, i: u32) -> u32 {
         for _ in self.zone.len()..self.rim.len() {
             self.zone.push(self.cells.len() as u32);
-            self.cells.push(Cell {
-                v: [INFINITE; 3],
-                twin: [0; 3],
-            });
+            self.cells.push(Cell { v: [INFINITE; 3], twin: [0; 3] });
         }
-        if self.rim.iter().any(|&(x, _)| x == INFINITE) {
-            self.star_outside(i)
-        } else {
-            self.star_inside(i)
-        }
+        if self.rim.iter().any(|&(x, _)| x == INFINITE) { self.star_outside(i) } else { self.star_inside(i) }
     }
 
     /// The same where the infinite vertex is not on the boundary: edge 0 of a cell is the boundary's, edge 1 leads to point `i`.
@@ -248,11 +223,8 @@ impl<K: Kernel> Builder<K> {
         let (first_x, mut outer) = self.rim[0];
         let (mut t, mut x) = (first, first_x);
         for here in 1..=m {
-            let (after, (y, next_outer)) = if here < m {
-                (self.zone[here], self.rim[here])
-            } else {
-                (first, (first_x, NONE))
-            };
+            let (after, (y, next_outer)) =
+                if here < m { (self.zone[here], self.rim[here]) } else { (first, (first_x, NONE)) };
             let twin = [outer, 4 * after + 2, 4 * before + 1];
             self.cells[t as usize] = Cell { v: [x, y, i], twin };
             self.cells[(outer >> 2) as usize].twin[((outer & 3) as usize).min(2)] = 4 * t;
@@ -266,33 +238,22 @@ impl<K: Kernel> Builder<K> {
         let m = self.rim.len();
         let vertex = |rim: &[(u32, u32)], here: usize| rim[here % m].0;
         // The corner from which the boundary's edge goes in cell number `here`.
-        let turn =
-            |rim: &[(u32, u32)], here: usize| match (vertex(rim, here), vertex(rim, here + 1)) {
-                (INFINITE, _) => 2,
-                (_, INFINITE) => 1,
-                _ => 0,
-            };
+        let turn = |rim: &[(u32, u32)], here: usize| match (vertex(rim, here), vertex(rim, here + 1)) {
+            (INFINITE, _) => 2,
+            (_, INFINITE) => 1,
+            _ => 0,
+        };
         let mut finite = 0;
         for here in 0..m {
             let (x, outer) = self.rim[here];
             let y = vertex(&self.rim, here + 1);
             let (t, k) = (self.zone[here], turn(&self.rim, here));
             let after = 4 * self.zone[(here + 1) % m] + (turn(&self.rim, here + 1) + 2) % 3;
-            let before =
-                4 * self.zone[(here + m - 1) % m] + (turn(&self.rim, here + m - 1) + 1) % 3;
+            let before = 4 * self.zone[(here + m - 1) % m] + (turn(&self.rim, here + m - 1) + 1) % 3;
             self.cells[t as usize] = match k {
-                0 => Cell {
-                    v: [x, y, i],
-                    twin: [outer, after, before],
-                },
-                1 => Cell {
-                    v: [i, x, y],
-                    twin: [before, outer, after],
-                },
-                _ => Cell {
-                    v: [y, i, x],
-                    twin: [after, before, outer],
-                },
+                0 => Cell { v: [x, y, i], twin: [outer, after, before] },
+                1 => Cell { v: [i, x, y], twin: [before, outer, after] },
+                _ => Cell { v: [y, i, x], twin: [after, before, outer] },
             };
             if k == 0 {
                 finite = t;
@@ -304,11 +265,7 @@ impl<K: Kernel> Builder<K> {
 
     /// The finite triangles with the points' own numbers.
     fn finish(mut self, order: &[u32]) -> Vec<Slot> {
-        let ghosts: Vec<u32> = (0u32..)
-            .zip(&self.cells)
-            .filter(|(_, c)| c.v[2] == INFINITE)
-            .map(|(t, _)| t)
-            .collect();
+        let ghosts: Vec<u32> = (0u32..).zip(&self.cells).filter(|(_, c)| c.v[2] == INFINITE).map(|(t, _)| t).collect();
         for &ghost in &ghosts {
             let e = self.cells[ghost as usize].twin[0];
             self.cells[(e >> 2) as usize].twin[(e & 3) as usize] = NONE;
@@ -328,12 +285,8 @@ impl<K: Kernel> Builder<K> {
             }
         }
         let link = |e: u32| if e == NONE { Link::BORDER } else { Link::to(e) };
-        let slot = |cell: &Cell| Slot {
-            v: cell.v.map(|v| order[v as usize]),
-            birth: 0,
-            link: cell.twin.map(link),
-            region: 0,
-        };
+        let slot =
+            |cell: &Cell| Slot { v: cell.v.map(|v| order[v as usize]), birth: 0, link: cell.twin.map(link), region: 0 };
         self.cells.iter().map(slot).collect()
     }
 }

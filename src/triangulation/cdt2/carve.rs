@@ -83,13 +83,7 @@ impl<K: Kernel> Cdt2<K> {
         self.assess(fill, toggles, holes, regions).1
     }
 
-    fn assess(
-        &self,
-        fill: Fill,
-        toggles: &[bool],
-        holes: &[Point2],
-        regions: &[Point2],
-    ) -> (Faces, Vec<CarveError>) {
+    fn assess(&self, fill: Fill, toggles: &[bool], holes: &[Point2], regions: &[Point2]) -> (Faces, Vec<CarveError>) {
         let mut faces = self.faces();
         let inside = match fill {
             Fill::Seeds => self.enclosed(&faces),
@@ -108,9 +102,7 @@ impl<K: Kernel> Cdt2<K> {
         for (i, &p) in regions.iter().enumerate() {
             match self.face_at(&faces, p) {
                 Err(on) => findings.push(on.error(Seed::Region(i))),
-                Ok(face) if !faces.kept[face] => {
-                    findings.push(CarveError::Outside(Seed::Region(i)))
-                }
+                Ok(face) if !faces.kept[face] => findings.push(CarveError::Outside(Seed::Region(i))),
                 Ok(face) if faces.region[face] != 0 => {
                     findings.push(CarveError::OneFace(faces.region[face] as usize - 1, i));
                 }
@@ -136,11 +128,7 @@ impl<K: Kernel> Cdt2<K> {
             of[root.0 as usize] = count;
             stack.push(root.0);
             while let Some(t) = stack.pop() {
-                for f in self.slots[t as usize]
-                    .link
-                    .iter()
-                    .filter_map(|l| l.passage())
-                {
+                for f in self.slots[t as usize].link.iter().filter_map(|l| l.passage()) {
                     let beyond = &mut of[(f >> 2) as usize];
                     if *beyond == NONE {
                         *beyond = count;
@@ -150,11 +138,7 @@ impl<K: Kernel> Cdt2<K> {
             }
             count += 1;
         }
-        Faces {
-            of,
-            kept: vec![true; count as usize],
-            region: vec![0; count as usize],
-        }
+        Faces { of, kept: vec![true; count as usize], region: vec![0; count as usize] }
     }
 
     /// Which faces do not reach the hull across an unconstrained edge.
@@ -171,9 +155,7 @@ impl<K: Kernel> Cdt2<K> {
     /// Which faces are reached from outside across an odd number of toggling segments. (If segments that do not close up give
     /// two answers, the one of the first path found, breadth first by slots.)
     fn odd(&self, faces: &Faces, toggles: &[bool]) -> Vec<bool> {
-        let toggled = |e: u32| {
-            self.link(e).is_constrained() && toggles.get(self.label(e) as usize) == Some(&true)
-        };
+        let toggled = |e: u32| self.link(e).is_constrained() && toggles.get(self.label(e) as usize) == Some(&true);
         // (face, face beyond or NONE outside, whether the passage toggles)
         let mut passages: Vec<(u32, u32, bool)> = Vec::new();
         for e in self.triangles().flat_map(|t| self.edges(t)) {
@@ -216,18 +198,9 @@ impl<K: Kernel> Cdt2<K> {
 
     /// Labels the triangles; those of faces not kept become `OUTSIDE`.
     fn label_faces(&mut self, faces: &Faces) {
-        for (t, slot) in self
-            .slots
-            .iter_mut()
-            .enumerate()
-            .filter(|(_, s)| s.is_inside())
-        {
+        for (t, slot) in self.slots.iter_mut().enumerate().filter(|(_, s)| s.is_inside()) {
             let face = faces.of[t] as usize;
-            slot.region = if faces.kept[face] {
-                faces.region[face]
-            } else {
-                OUTSIDE
-            };
+            slot.region = if faces.kept[face] { faces.region[face] } else { OUTSIDE };
             self.outside += usize::from(!faces.kept[face]);
         }
         self.commit();

@@ -33,11 +33,7 @@ impl<K: Kernel> Cdt2<K> {
     pub fn constrain(&mut self, segments: &[[VertexId; 2]]) -> Result<(), BuildError> {
         let mut order: Vec<(u32, u32)> = Vec::with_capacity(segments.len());
         // Segment ids are u32 by type.
-        order.extend(
-            (0u32..)
-                .zip(segments)
-                .map(|(id, s)| (self.hints[s[0].index()], id)),
-        );
+        order.extend((0u32..).zip(segments).map(|(id, s)| (self.hints[s[0].index()], id)));
         order.sort_unstable();
         let mut crossed = Crossed::default();
         for (_, id) in order {
@@ -47,13 +43,7 @@ impl<K: Kernel> Cdt2<K> {
         Ok(())
     }
 
-    fn constrain_one(
-        &mut self,
-        u: u32,
-        v: u32,
-        id: u32,
-        crossed: &mut Crossed,
-    ) -> Result<(), BuildError> {
+    fn constrain_one(&mut self, u: u32, v: u32, id: u32, crossed: &mut Crossed) -> Result<(), BuildError> {
         if u == v {
             return Err(BuildError::VertexOnSegment(SegmentId(id), VertexId(v)));
         }
@@ -104,9 +94,7 @@ impl<K: Kernel> Cdt2<K> {
                 None => break,
             }
         }
-        unreachable!(
-            "the triangles at a vertex cover every direction to another vertex of the hull"
-        )
+        unreachable!("the triangles at a vertex cover every direction to another vertex of the hull")
     }
 
     /// The same for the one triangle left of e.
@@ -141,25 +129,10 @@ impl<K: Kernel> Cdt2<K> {
     ///       u --------------------------------> v
     ///           right: the chain from u to v
     /// ```
-    fn collect(
-        &self,
-        u: u32,
-        v: u32,
-        e: u32,
-        id: u32,
-        crossed: &mut Crossed,
-    ) -> Result<(), BuildError> {
+    fn collect(&self, u: u32, v: u32, e: u32, id: u32, crossed: &mut Crossed) -> Result<(), BuildError> {
         let [pu, pv] = [u, v].map(|v| self.points[v as usize]);
-        let side = |e: u32| Side {
-            origin: self.origin_of(e),
-            inner: e,
-        };
-        let Crossed {
-            triangles,
-            left,
-            right,
-            created,
-        } = crossed;
+        let side = |e: u32| Side { origin: self.origin_of(e), inner: e };
+        let Crossed { triangles, left, right, created } = crossed;
         triangles.clear();
         created.clear();
         left.reset();
@@ -167,10 +140,7 @@ impl<K: Kernel> Cdt2<K> {
         triangles.push(e >> 2);
         // Until the end `left` holds its sides from u on, clockwise; each with its own origin.
         left.sides.push(side(next(e)));
-        right.sides.push(Side {
-            origin: v,
-            inner: NONE,
-        });
+        right.sides.push(Side { origin: v, inner: NONE });
         right.sides.push(side(prev(e)));
         let mut e = e;
         loop {
@@ -178,9 +148,7 @@ impl<K: Kernel> Cdt2<K> {
             if link.is_constrained() {
                 return Err(crossing(id, self.label(e)));
             }
-            let Some(f) = link.twin() else {
-                unreachable!("a segment stays inside the convex hull")
-            };
+            let Some(f) = link.twin() else { unreachable!("a segment stays inside the convex hull") };
             // f leads from left to right; its triangle's apex decides which of the two other edges is crossed next.
             triangles.push(f >> 2);
             let apex = self.origin_of(prev(f));
@@ -203,10 +171,7 @@ impl<K: Kernel> Cdt2<K> {
                 }
             }
         }
-        left.sides.push(Side {
-            origin: u,
-            inner: NONE,
-        });
+        left.sides.push(Side { origin: u, inner: NONE });
         left.sides.reverse();
         Ok(())
     }

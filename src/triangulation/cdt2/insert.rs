@@ -73,11 +73,7 @@ impl<K: Kernel> Cdt2<K> {
         let twin = self.link(e.0).twin();
         // The side left of u -> v, u < v, comes first.
         let forward = self.origin_of(e.0) < self.origin_of(next(e.0));
-        let (first, second) = if forward {
-            (Some(e.0), twin)
-        } else {
-            (twin, Some(e.0))
-        };
+        let (first, second) = if forward { (Some(e.0), twin) } else { (twin, Some(e.0)) };
         let mut s = self.begin();
         for root in [first, second].into_iter().flatten() {
             s.zone.push(root >> 2);
@@ -120,10 +116,7 @@ impl<K: Kernel> Cdt2<K> {
                 let beyond = &self.slots[(f >> 2) as usize];
                 if K::in_conflict(self.corners_of(&beyond.v), p) {
                     // The triangles form a tree (module head): more of them than slots means a broken precondition.
-                    assert!(
-                        s.zone.len() <= self.slots.len(),
-                        "the cavity is not star-shaped"
-                    );
+                    assert!(s.zone.len() <= self.slots.len(), "the cavity is not star-shaped");
                     s.zone.push(f >> 2);
                     s.stack.extend([prev(f), next(f)]);
                     continue;
@@ -137,18 +130,9 @@ impl<K: Kernel> Cdt2<K> {
     #[inline]
     fn rim(&self, e: u32) -> Rim {
         let outer = self.link(e);
-        let label = if outer.is_constrained() {
-            self.label(e)
-        } else {
-            NONE
-        };
+        let label = if outer.is_constrained() { self.label(e) } else { NONE };
         let region = self.slots[(e >> 2) as usize].region;
-        Rim {
-            origin: self.origin_of(e),
-            outer,
-            label,
-            region,
-        }
+        Rim { origin: self.origin_of(e), outer, label, region }
     }
 
     /// Replaces the conflict zone by the triangles (x, y, p) over the edges xy of its boundary.
@@ -162,9 +146,7 @@ impl<K: Kernel> Cdt2<K> {
     /// ```
     fn star(&mut self, s: &mut Scratch, p: Point2, closing: Closing, change: &mut Change) -> u32 {
         let zone = s.zone.iter().map(|&t| &self.slots[t as usize]);
-        change
-            .destroyed
-            .extend(zone.filter(|t| t.is_inside()).map(Slot::canonical));
+        change.destroyed.extend(zone.filter(|t| t.is_inside()).map(Slot::canonical));
         while s.zone.len() < s.rim.len() {
             s.zone.push(self.take_slot());
         }
@@ -187,15 +169,7 @@ impl<K: Kernel> Cdt2<K> {
                     K::orient2d(a, b, c).is_positive()
                 }
             );
-            self.write_slot(
-                here,
-                Slot {
-                    v,
-                    birth: self.clock,
-                    link,
-                    region: rim.region,
-                },
-            );
+            self.write_slot(here, Slot { v, birth: self.clock, link, region: rim.region });
             self.write_hint(rim.origin, 4 * here);
             self.glue_back(4 * here, rim.outer, rim.label);
             if rim.region != OUTSIDE {

@@ -47,8 +47,7 @@ impl<K: Kernel> Cdt2<K> {
             return self.place_in(t, p).unwrap_or(Location::Outside);
         }
         let mut all = self.triangles();
-        all.find_map(|t| self.place_in(t.0, p))
-            .unwrap_or(Location::Outside)
+        all.find_map(|t| self.place_in(t.0, p)).unwrap_or(Location::Outside)
     }
 
     /// Sign of cross(origin of e, destination of e, p).
@@ -63,9 +62,7 @@ impl<K: Kernel> Cdt2<K> {
         if sides.iter().any(|s| s.is_negative()) {
             return None;
         }
-        let mut on = (0..3)
-            .filter(|&k| sides[k as usize] == Sign::Zero)
-            .map(|k| 4 * t + k);
+        let mut on = (0..3).filter(|&k| sides[k as usize] == Sign::Zero).map(|k| 4 * t + k);
         let inside = |e: &u32| self.slots[(e >> 2) as usize].is_inside();
         Some(match (on.next(), on.next()) {
             (None, _) if inside(&(4 * t)) => Location::Triangle(TriId(t)),

@@ -77,8 +77,7 @@ impl Polygon {
 
     fn load(&mut self, points: &[Point2]) {
         self.points.clear();
-        self.points
-            .extend(self.sides.iter().map(|s| points[s.origin as usize]));
+        self.points.extend(self.sides.iter().map(|s| points[s.origin as usize]));
         self.pieces.clear();
         self.clipped.clear();
         self.place.clear();
@@ -90,12 +89,7 @@ impl Polygon {
         // Positions fit: there are fewer sides than half-edges.
         let n = self.sides.len() as u32;
         self.around.clear();
-        self.around.extend((0..n).map(|i| {
-            [
-                if i == 0 { n - 1 } else { i - 1 },
-                if i + 1 == n { 0 } else { i + 1 },
-            ]
-        }));
+        self.around.extend((0..n).map(|i| [if i == 0 { n - 1 } else { i - 1 }, if i + 1 == n { 0 } else { i + 1 }]));
         self.candidates.clear();
         self.candidates.extend(0..n);
         let mut random = 0x9e37_79b9_u32;
@@ -106,9 +100,7 @@ impl Polygon {
             random ^= random >> 17;
             random ^= random << 5;
             assert!(!self.candidates.is_empty(), "such a polygon has an ear");
-            let b = self
-                .candidates
-                .swap_remove(random as usize % self.candidates.len());
+            let b = self.candidates.swap_remove(random as usize % self.candidates.len());
             let [a, c] = self.around[b as usize];
             if c == b || !is_ear(self, [a, b, c]) {
                 continue;
@@ -130,10 +122,7 @@ impl Polygon {
         let clipped = std::mem::take(&mut self.clipped);
         let mut ears = clipped.iter().rev();
         if let Some(&[a, b, c]) = ears.next() {
-            self.pieces.push(Piece {
-                v: [a, b, c],
-                link: [OUTER | a, OUTER | b, OUTER | c],
-            });
+            self.pieces.push(Piece { v: [a, b, c], link: [OUTER | a, OUTER | b, OUTER | c] });
             for (k, i) in [(0, a), (1, b), (2, c)] {
                 self.place[i as usize] = k;
             }
@@ -141,10 +130,7 @@ impl Polygon {
         for &[a, b, c] in ears {
             let inside = self.place[a as usize];
             let t = 4 * self.pieces.len() as u32;
-            self.pieces.push(Piece {
-                v: [a, b, c],
-                link: [NONE; 3],
-            });
+            self.pieces.push(Piece { v: [a, b, c], link: [NONE; 3] });
             self.connect(t, OUTER | a);
             self.connect(t + 1, OUTER | b);
             self.connect(t + 2, inside);
@@ -162,9 +148,7 @@ impl Polygon {
             if f & OUTER != 0 {
                 continue;
             }
-            let beyond = self.pieces[(f >> 2) as usize]
-                .v
-                .map(|i| self.points[i as usize]);
+            let beyond = self.pieces[(f >> 2) as usize].v.map(|i| self.points[i as usize]);
             if K::in_conflict(beyond, p) {
                 self.flip(e, f);
                 // The edges of the flipped pair that are opposite to b.
@@ -201,8 +185,7 @@ impl Polygon {
         let (t, k) = ((e >> 2) as usize, (e & 3) as usize);
         let (u, l) = ((f >> 2) as usize, (f & 3) as usize);
         let (above, below) = (self.pieces[t], self.pieces[u]);
-        let at =
-            |p: Piece, k: usize, turn: [u32; 4]| (p.v[turn[k] as usize], p.link[turn[k] as usize]);
+        let at = |p: Piece, k: usize, turn: [u32; 4]| (p.v[turn[k] as usize], p.link[turn[k] as usize]);
         let (b, bc) = at(above, k, SUCC);
         let (c, ca) = at(above, k, PRED);
         let (a, ad) = at(below, l, SUCC);
@@ -234,26 +217,12 @@ impl<K: Kernel> Cdt2<K> {
         for (i, piece) in polygon.pieces.iter().enumerate() {
             let t = created[base + i].0;
             let v = piece.v.map(|i| polygon.sides[i as usize].origin);
-            let link = piece.link.map(|l| {
-                if l & OUTER == 0 {
-                    Link::to(slot_of(l))
-                } else {
-                    Link::BORDER
-                }
-            });
+            let link = piece.link.map(|l| if l & OUTER == 0 { Link::to(slot_of(l)) } else { Link::BORDER });
             debug_assert!({
                 let [a, b, c] = self.corners_of(&v);
                 K::orient2d(a, b, c).is_positive()
             });
-            self.write_slot(
-                t,
-                Slot {
-                    v,
-                    birth: self.clock,
-                    link,
-                    region,
-                },
-            );
+            self.write_slot(t, Slot { v, birth: self.clock, link, region });
             for k in 0..3 {
                 self.write_hint(v[k as usize], 4 * t + k);
             }

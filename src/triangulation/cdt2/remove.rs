@@ -18,19 +18,11 @@ impl<K: Kernel> Cdt2<K> {
         polygon.reset();
         let mut e = start;
         loop {
-            change
-                .destroyed
-                .push(self.slots[(e >> 2) as usize].canonical());
+            change.destroyed.push(self.slots[(e >> 2) as usize].canonical());
             let opposite = next(e);
-            polygon.sides.push(Side {
-                origin: self.origin_of(opposite),
-                inner: opposite,
-            });
+            polygon.sides.push(Side { origin: self.origin_of(opposite), inner: opposite });
             let spoke = self.link(prev(e)).passage();
-            assert!(
-                spoke.is_some(),
-                "a deleted vertex is interior and has no constrained edge"
-            );
+            assert!(spoke.is_some(), "a deleted vertex is interior and has no constrained edge");
             e = spoke.unwrap_or(start);
             if e == start {
                 break;

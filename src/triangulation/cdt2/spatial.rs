@@ -168,9 +168,8 @@ mod tests {
 
     #[test]
     fn the_curve_visits_neighboring_cells() {
-        let mut cells: Vec<(u32, u16, u16)> = (0..64)
-            .flat_map(|x| (0..64).map(move |y| (hilbert(x << 10, y << 10), x, y)))
-            .collect();
+        let mut cells: Vec<(u32, u16, u16)> =
+            (0..64).flat_map(|x| (0..64).map(move |y| (hilbert(x << 10, y << 10), x, y))).collect();
         cells.sort_unstable();
         for pair in cells.windows(2) {
             let (_, a, b) = pair[0];
@@ -181,9 +180,8 @@ mod tests {
 
     #[test]
     fn the_order_is_a_permutation_also_of_crowded_points() {
-        let points: Vec<Point2> = (0..10_000)
-            .map(|i| Point2::new(f64::from(i % 97) * 1e-12, f64::from(i / 97) * 1e-12))
-            .collect();
+        let points: Vec<Point2> =
+            (0..10_000).map(|i| Point2::new(f64::from(i % 97) * 1e-12, f64::from(i / 97) * 1e-12)).collect();
         let far = Point2::new(1.0, 1.0);
         let mut order = insertion_order(&[points, vec![far]].concat());
         order.sort_unstable();

@@ -100,12 +100,7 @@ pub(super) struct Slot {
 }
 
 impl Slot {
-    pub(super) const FREE: Slot = Slot {
-        v: [NONE; 3],
-        birth: 0,
-        link: [Link::BORDER; 3],
-        region: 0,
-    };
+    pub(super) const FREE: Slot = Slot { v: [NONE; 3], birth: 0, link: [Link::BORDER; 3], region: 0 };
 
     #[inline]
     pub(super) fn is_free(&self) -> bool {
@@ -260,9 +255,7 @@ impl<K: Kernel> Cdt2<K> {
     #[inline]
     pub fn twin(&self, e: HalfEdge) -> Option<HalfEdge> {
         let f = self.link(e.0).twin()?;
-        self.slots[(f >> 2) as usize]
-            .is_inside()
-            .then_some(HalfEdge(f))
+        self.slots[(f >> 2) as usize].is_inside().then_some(HalfEdge(f))
     }
 
     /// Whether the edge is part of an input segment.
@@ -274,9 +267,7 @@ impl<K: Kernel> Cdt2<K> {
     /// The input segment that the edge is part of.
     #[inline]
     pub fn segment(&self, e: HalfEdge) -> Option<SegmentId> {
-        self.link(e.0)
-            .is_constrained()
-            .then(|| SegmentId(self.label(e.0)))
+        self.link(e.0).is_constrained().then(|| SegmentId(self.label(e.0)))
     }
 
     /// Some half-edge of the region with origin v; `None` for a deleted vertex or one in no kept triangle.
@@ -312,9 +303,7 @@ impl<K: Kernel> Cdt2<K> {
             last = last.and_then(|f| self.link(f).twin()).map(next);
             Some(e)
         };
-        std::iter::from_fn(turn)
-            .filter(|&e| self.slots[(e >> 2) as usize].is_inside())
-            .map(HalfEdge)
+        std::iter::from_fn(turn).filter(|&e| self.slots[(e >> 2) as usize].is_inside()).map(HalfEdge)
     }
 
     /// Birth that triangles created from now on carry.
@@ -365,10 +354,7 @@ impl<K: Kernel> Cdt2<K> {
             }
             None => {
                 let t = self.slots.len() as u32;
-                assert!(
-                    t < 1 << 29,
-                    "a triangulation holds fewer than 2^29 triangles"
-                );
+                assert!(t < 1 << 29, "a triangulation holds fewer than 2^29 triangles");
                 self.slots.push(Slot::FREE);
                 self.labels.push([NONE; 3]);
                 t
@@ -387,8 +373,7 @@ impl<K: Kernel> Cdt2<K> {
     pub(super) fn write_slot(&mut self, t: u32, slot: Slot) {
         let i = t as usize;
         if self.journal.is_on() {
-            self.journal
-                .record(|| Undo::Slot(t, self.slots[i], self.labels[i]));
+            self.journal.record(|| Undo::Slot(t, self.slots[i], self.labels[i]));
         }
         self.slots[i] = slot;
     }

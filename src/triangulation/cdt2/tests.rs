@@ -12,10 +12,7 @@ struct Draw(u64);
 
 impl Draw {
     fn below(&mut self, n: u32) -> u32 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 33) % u64::from(n)) as u32
     }
     fn unit(&mut self) -> f64 {
@@ -67,8 +64,7 @@ fn family(kind: u32, n: usize, draw: &mut Draw) -> Vec<Point2> {
             // Clusters, the smallest below the resolution of the first curve.
             4 => {
                 let c = Point2::new(f64::from(draw.below(3)), f64::from(draw.below(2))) / 4.0;
-                c + Point2::new(draw.unit(), draw.unit())
-                    * [1e-3, 1e-7, 1e-12][draw.below(3) as usize]
+                c + Point2::new(draw.unit(), draw.unit()) * [1e-3, 1e-7, 1e-12][draw.below(3) as usize]
             }
             // Nearly on a line.
             _ => {
@@ -92,10 +88,7 @@ fn points_of(seed: u64) -> Vec<Point2> {
 
 /// The triangles as ids, sorted.
 fn triples(m: &Cdt) -> Vec<Triangle> {
-    let mut all: Vec<Triangle> = m
-        .triangles()
-        .map(|t| crate::model::canonical_triangle(m.vertices(t)))
-        .collect();
+    let mut all: Vec<Triangle> = m.triangles().map(|t| crate::model::canonical_triangle(m.vertices(t))).collect();
     all.sort_unstable();
     all
 }
@@ -108,15 +101,8 @@ fn validate(m: &Cdt) {
 
 /// Whether the open segments cross, or one holds an end of the other inside.
 fn blocks(a: Point2, b: Point2, c: Point2, d: Point2) -> bool {
-    let sides = [
-        K::orient2d(a, b, c),
-        K::orient2d(a, b, d),
-        K::orient2d(c, d, a),
-        K::orient2d(c, d, b),
-    ];
-    sides[0] == sides[1].reversed()
-        && sides[2] == sides[3].reversed()
-        && sides.iter().all(|&s| s != Sign::Zero)
+    let sides = [K::orient2d(a, b, c), K::orient2d(a, b, d), K::orient2d(c, d, a), K::orient2d(c, d, b)];
+    sides[0] == sides[1].reversed() && sides[2] == sides[3].reversed() && sides.iter().all(|&s| s != Sign::Zero)
 }
 
 /// The definition without segments: all counterclockwise triples in conflict with no other vertex.
@@ -149,17 +135,12 @@ fn segments_among(points: &[Point2], wanted: usize, draw: &mut Draw) -> Vec<[Ver
         let [pa, pb] = [a, b].map(|v| points[v as usize]);
         let holds = |q: Point2| {
             let order = crate::arith::perturb::lexicographic;
-            K::orient2d(pa, pb, q) == Sign::Zero
-                && order(pa, q) == order(q, pb)
-                && q != pa
-                && q != pb
+            K::orient2d(pa, pb, q) == Sign::Zero && order(pa, q) == order(q, pb) && q != pa && q != pb
         };
-        let crosses =
-            |s: &[VertexId; 2]| blocks(pa, pb, points[s[0].index()], points[s[1].index()]);
+        let crosses = |s: &[VertexId; 2]| blocks(pa, pb, points[s[0].index()], points[s[1].index()]);
         let new = [VertexId(a), VertexId(b)];
         let repeats = segments.contains(&new) || segments.contains(&[new[1], new[0]]);
-        if a != b && !repeats && !points.iter().any(|&q| holds(q)) && !segments.iter().any(crosses)
-        {
+        if a != b && !repeats && !points.iter().any(|&q| holds(q)) && !segments.iter().any(crosses) {
             segments.push(new);
         }
         if segments.len() == wanted {
@@ -190,27 +171,11 @@ fn labelled(m: &Cdt) -> Vec<(VertexId, VertexId, SegmentId)> {
 }
 
 /// Everything there is to know: slots, labels, hints, free slots, vertices, clock.
-type Image = (
-    Vec<super::store::Slot>,
-    Vec<[Option<SegmentId>; 3]>,
-    Vec<u32>,
-    Vec<u32>,
-    usize,
-    u32,
-);
+type Image = (Vec<super::store::Slot>, Vec<[Option<SegmentId>; 3]>, Vec<u32>, Vec<u32>, usize, u32);
 
 fn image(m: &Cdt) -> Image {
-    let labels = (0..m.slots.len() as u32)
-        .map(|t| m.edges(TriId(t)).map(|e| m.segment(e)))
-        .collect();
-    (
-        m.slots.clone(),
-        labels,
-        m.hints.clone(),
-        m.free.clone(),
-        m.points.len(),
-        m.clock,
-    )
+    let labels = (0..m.slots.len() as u32).map(|t| m.edges(TriId(t)).map(|e| m.segment(e))).collect();
+    (m.slots.clone(), labels, m.hints.clone(), m.free.clone(), m.points.len(), m.clock)
 }
 
 #[test]
@@ -227,11 +192,7 @@ fn delaunay_is_the_definition() {
             }
             Err(e) => {
                 assert_eq!(e, BuildError::Collinear, "seed {seed}");
-                assert!(
-                    points
-                        .windows(3)
-                        .all(|w| K::orient2d(w[0], w[1], w[2]) == Sign::Zero)
-                );
+                assert!(points.windows(3).all(|w| K::orient2d(w[0], w[1], w[2]) == Sign::Zero));
             }
         }
     }
@@ -250,10 +211,8 @@ fn the_order_of_points_and_segments_does_not_matter() {
         };
         validate(&m);
         m.validate_hull().unwrap();
-        let mut expected: Vec<_> = (0u32..)
-            .zip(&segments)
-            .map(|(i, s)| (s[0].min(s[1]), s[0].max(s[1]), SegmentId(i)))
-            .collect();
+        let mut expected: Vec<_> =
+            (0u32..).zip(&segments).map(|(i, s)| (s[0].min(s[1]), s[0].max(s[1]), SegmentId(i))).collect();
         expected.sort_unstable();
         assert_eq!(labelled(&m), expected, "seed {seed}");
 
@@ -263,11 +222,8 @@ fn the_order_of_points_and_segments_does_not_matter() {
         for (i, &r) in rank.iter().enumerate() {
             shuffled[r as usize] = points[i];
         }
-        let renamed: Vec<[VertexId; 2]> = segments
-            .iter()
-            .rev()
-            .map(|s| [s[1], s[0]].map(|v| VertexId(rank[v.index()])))
-            .collect();
+        let renamed: Vec<[VertexId; 2]> =
+            segments.iter().rev().map(|s| [s[1], s[0]].map(|v| VertexId(rank[v.index()]))).collect();
         let other = built(&shuffled, &renamed).unwrap();
         let mut back: Vec<Triangle> = triples(&m)
             .into_iter()
@@ -308,26 +264,12 @@ fn insertions_and_removals_equal_a_fresh_build() {
             let v = m.insert(t, p, &mut change);
             assert_eq!(v.index(), now.len());
             assert_eq!(change.destroyed.len() + 2, change.created.len());
-            assert!(
-                change
-                    .destroyed
-                    .iter()
-                    .all(|t| before.binary_search(t).is_ok())
-            );
-            assert!(
-                change
-                    .created
-                    .iter()
-                    .all(|&t| m.birth(t) == clock && m.vertices(t).contains(&v))
-            );
+            assert!(change.destroyed.iter().all(|t| before.binary_search(t).is_ok()));
+            assert!(change.created.iter().all(|&t| m.birth(t) == clock && m.vertices(t).contains(&v)));
             now.push(p);
             free.push(v);
             validate(&m);
-            assert_eq!(
-                triples(&m),
-                triples(&built(&now, &segments).unwrap()),
-                "seed {seed}"
-            );
+            assert_eq!(triples(&m), triples(&built(&now, &segments).unwrap()), "seed {seed}");
         }
         draw.shuffle(&mut free);
         for v in free {
@@ -339,11 +281,7 @@ fn insertions_and_removals_equal_a_fresh_build() {
             validate(&m);
         }
         m.validate_hull().unwrap();
-        assert_eq!(
-            triples(&m),
-            triples(&built(&points, &segments).unwrap()),
-            "seed {seed}"
-        );
+        assert_eq!(triples(&m), triples(&built(&points, &segments).unwrap()), "seed {seed}");
     }
 }
 
@@ -361,11 +299,8 @@ fn splits_equal_a_fresh_build_where_the_point_is_exact() {
         };
         let mut now = points.clone();
         for _ in 0..6 {
-            let edges: Vec<HalfEdge> = m
-                .triangles()
-                .flat_map(|t| m.edges(t))
-                .filter(|&e| m.is_constrained(e))
-                .collect();
+            let edges: Vec<HalfEdge> =
+                m.triangles().flat_map(|t| m.edges(t)).filter(|&e| m.is_constrained(e)).collect();
             if edges.is_empty() {
                 break;
             }
@@ -384,26 +319,15 @@ fn splits_equal_a_fresh_build_where_the_point_is_exact() {
             let first = &change.destroyed[0];
             assert!(first.contains(&low) && first.contains(&high));
             now.push(p);
-            let i = segments
-                .iter()
-                .position(|s| s.contains(&u) && s.contains(&v))
-                .unwrap();
+            let i = segments.iter().position(|s| s.contains(&u) && s.contains(&v)).unwrap();
             segments[i] = [u, w];
             segments.push([w, v]);
             validate(&m);
             m.validate_hull().unwrap();
-            assert_eq!(
-                triples(&m),
-                triples(&built(&now, &segments).unwrap()),
-                "seed {seed}"
-            );
+            assert_eq!(triples(&m), triples(&built(&now, &segments).unwrap()), "seed {seed}");
             let ends = |a: VertexId, b: VertexId| (a.min(b), a.max(b), label);
             let all = labelled(&m);
-            assert!(
-                all.contains(&ends(u, w))
-                    && all.contains(&ends(w, v))
-                    && all.len() == segments.len()
-            );
+            assert!(all.contains(&ends(u, w)) && all.contains(&ends(w, v)) && all.len() == segments.len());
         }
     }
     assert!(splits > 1000);
@@ -435,10 +359,7 @@ fn rollback_restores_everything() {
                         free.push(m.insert(t, p, &mut change));
                     }
                 }
-                let edge = m
-                    .triangles()
-                    .flat_map(|t| m.edges(t))
-                    .find(|&e| m.is_constrained(e));
+                let edge = m.triangles().flat_map(|t| m.edges(t)).find(|&e| m.is_constrained(e));
                 if let Some(e) = edge.filter(|_| draw.below(3) == 0) {
                     let (u, v) = (m.point(m.origin(e)), m.point(m.destination(e)));
                     let p = (u + v) * 0.5;
@@ -464,23 +385,11 @@ fn rollback_restores_everything() {
 fn bad_points_and_segments_are_named() {
     let p = |x: i32, y: i32| Point2::new(f64::from(x), f64::from(y)) / 16.0;
     let mut points = vec![p(3, 3), p(0, 0), p(1, 5), p(0, 0), p(3, 3), p(7, 2)];
-    assert_eq!(
-        Cdt::delaunay(points.clone()).err(),
-        Some(BuildError::Duplicate(VertexId(0), VertexId(4)))
-    );
+    assert_eq!(Cdt::delaunay(points.clone()).err(), Some(BuildError::Duplicate(VertexId(0), VertexId(4))));
     points.truncate(4);
-    assert_eq!(
-        Cdt::delaunay(points).err(),
-        Some(BuildError::Duplicate(VertexId(1), VertexId(3)))
-    );
-    assert_eq!(
-        Cdt::delaunay(vec![p(0, 0), p(1, 1), p(2, 2)]).err(),
-        Some(BuildError::Collinear)
-    );
-    assert_eq!(
-        Cdt::delaunay(vec![p(1, 1), p(1, 1)]).err(),
-        Some(BuildError::Duplicate(VertexId(0), VertexId(1)))
-    );
+    assert_eq!(Cdt::delaunay(points).err(), Some(BuildError::Duplicate(VertexId(1), VertexId(3))));
+    assert_eq!(Cdt::delaunay(vec![p(0, 0), p(1, 1), p(2, 2)]).err(), Some(BuildError::Collinear));
+    assert_eq!(Cdt::delaunay(vec![p(1, 1), p(1, 1)]).err(), Some(BuildError::Duplicate(VertexId(0), VertexId(1))));
     assert_eq!(Cdt::delaunay(vec![]).err(), Some(BuildError::Collinear));
 
     let points = vec![p(0, 0), p(4, 0), p(4, 4), p(0, 4), p(2, 2), p(2, 0)];
@@ -488,57 +397,20 @@ fn bad_points_and_segments_are_named() {
         let segments: Vec<_> = segments.iter().map(|s| s.map(VertexId)).collect();
         Cdt::delaunay(points.clone()).unwrap().constrain(&segments)
     };
-    assert_eq!(
-        constrain(&[[0, 2]]),
-        Err(BuildError::VertexOnSegment(SegmentId(0), VertexId(4)))
-    );
-    assert_eq!(
-        constrain(&[[1, 0]]),
-        Err(BuildError::VertexOnSegment(SegmentId(0), VertexId(5)))
-    );
-    assert_eq!(
-        constrain(&[[0, 0]]),
-        Err(BuildError::VertexOnSegment(SegmentId(0), VertexId(0)))
-    );
-    assert_eq!(
-        constrain(&[[0, 4], [4, 0]]),
-        Err(BuildError::Crossing(SegmentId(0), SegmentId(1)))
-    );
-    assert_eq!(
-        constrain(&[[5, 2], [1, 4]]),
-        Err(BuildError::Crossing(SegmentId(0), SegmentId(1)))
-    );
-    assert_eq!(
-        constrain(&[[5, 2], [1, 0]]),
-        Err(BuildError::VertexOnSegment(SegmentId(1), VertexId(5)))
-    );
+    assert_eq!(constrain(&[[0, 2]]), Err(BuildError::VertexOnSegment(SegmentId(0), VertexId(4))));
+    assert_eq!(constrain(&[[1, 0]]), Err(BuildError::VertexOnSegment(SegmentId(0), VertexId(5))));
+    assert_eq!(constrain(&[[0, 0]]), Err(BuildError::VertexOnSegment(SegmentId(0), VertexId(0))));
+    assert_eq!(constrain(&[[0, 4], [4, 0]]), Err(BuildError::Crossing(SegmentId(0), SegmentId(1))));
+    assert_eq!(constrain(&[[5, 2], [1, 4]]), Err(BuildError::Crossing(SegmentId(0), SegmentId(1))));
+    assert_eq!(constrain(&[[5, 2], [1, 0]]), Err(BuildError::VertexOnSegment(SegmentId(1), VertexId(5))));
     assert_eq!(constrain(&[[5, 2], [1, 2], [3, 0]]), Ok(()));
 }
 
 /// Two nested squares, the inner one 4..=7.
 fn squares() -> (Vec<Point2>, Vec<[VertexId; 2]>) {
     let p = |x: i32, y: i32| Point2::new(f64::from(x), f64::from(y)) / 16.0;
-    let points = vec![
-        p(0, 0),
-        p(8, 0),
-        p(8, 8),
-        p(0, 8),
-        p(2, 2),
-        p(6, 2),
-        p(6, 6),
-        p(2, 6),
-        p(12, 4),
-    ];
-    let segments = [
-        [0, 1],
-        [1, 2],
-        [2, 3],
-        [3, 0],
-        [4, 5],
-        [5, 6],
-        [6, 7],
-        [7, 4],
-    ];
+    let points = vec![p(0, 0), p(8, 0), p(8, 8), p(0, 8), p(2, 2), p(6, 2), p(6, 6), p(2, 6), p(12, 4)];
+    let segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]];
     (points, segments.iter().map(|s| s.map(VertexId)).collect())
 }
 
@@ -560,37 +432,19 @@ fn carving_keeps_what_it_says() {
         assert_eq!(m.region(t), u32::from(!inside(&m, t)));
     }
     assert_eq!(labelled(&m).len(), 8);
-    assert_eq!(
-        m.triangles()
-            .flat_map(|t| m.edges(t))
-            .filter(|&e| m.twin(e).is_none())
-            .count(),
-        4
-    );
+    assert_eq!(m.triangles().flat_map(|t| m.edges(t)).filter(|&e| m.twin(e).is_none()).count(), 4);
 
     let mut m = fresh();
     m.carve(Fill::Seeds, &[], &[inner], &[]).unwrap();
     assert_eq!(m.triangle_count(), 8);
     assert!(m.triangles().all(|t| !inside(&m, t)));
-    assert_eq!(
-        m.triangles()
-            .flat_map(|t| m.edges(t))
-            .filter(|&e| m.twin(e).is_none())
-            .count(),
-        8
-    );
+    assert_eq!(m.triangles().flat_map(|t| m.edges(t)).filter(|&e| m.twin(e).is_none()).count(), 8);
 
     let mut m = fresh();
     m.carve(Fill::Parity, &[true; 8], &[], &[]).unwrap();
     assert_eq!(m.triangle_count(), 8);
     let mut m = fresh();
-    m.carve(
-        Fill::Parity,
-        &[true, true, true, true, false, false, false, false],
-        &[],
-        &[],
-    )
-    .unwrap();
+    m.carve(Fill::Parity, &[true, true, true, true, false, false, false, false], &[], &[]).unwrap();
     assert_eq!(m.triangle_count(), 10);
 
     let mut m = fresh();
@@ -602,46 +456,19 @@ fn carving_keeps_what_it_says() {
     let refused = |holes: &[Point2], regions: &[Point2], expected: &[CarveError]| {
         let mut m = fresh();
         assert_eq!(m.carve_findings(Fill::Seeds, &[], holes, regions), expected);
-        assert_eq!(
-            m.carve(Fill::Seeds, &[], holes, regions).err().as_ref(),
-            expected.first()
-        );
+        assert_eq!(m.carve(Fill::Seeds, &[], holes, regions).err().as_ref(), expected.first());
         assert_eq!(image(&m), before);
     };
-    refused(
-        &[outside],
-        &[p(100.0, 0.0)],
-        &[
-            CarveError::Outside(Seed::Hole(0)),
-            CarveError::Outside(Seed::Region(0)),
-        ],
-    );
+    refused(&[outside], &[p(100.0, 0.0)], &[CarveError::Outside(Seed::Hole(0)), CarveError::Outside(Seed::Region(0))]);
     refused(&[p(4.0, 2.0)], &[], &[CarveError::OnSegment(Seed::Hole(0))]);
-    refused(
-        &[],
-        &[p(2.0, 2.0)],
-        &[CarveError::OnSegment(Seed::Region(0))],
-    );
-    refused(
-        &[inner],
-        &[ring, inner],
-        &[CarveError::Outside(Seed::Region(1))],
-    );
-    refused(
-        &[],
-        &[ring, inner, p(7.0, 7.0)],
-        &[CarveError::OneFace(0, 2)],
-    );
+    refused(&[], &[p(2.0, 2.0)], &[CarveError::OnSegment(Seed::Region(0))]);
+    refused(&[inner], &[ring, inner], &[CarveError::Outside(Seed::Region(1))]);
+    refused(&[], &[ring, inner, p(7.0, 7.0)], &[CarveError::OneFace(0, 2)]);
     let mut all_holes = fresh();
-    all_holes
-        .carve(Fill::Seeds, &[], &[ring, inner], &[])
-        .unwrap();
+    all_holes.carve(Fill::Seeds, &[], &[ring, inner], &[]).unwrap();
     assert_eq!(all_holes.triangle_count(), 0);
     let mut open = built(&points, &segments[..3]).unwrap();
-    assert_eq!(
-        open.carve(Fill::Seeds, &[], &[], &[]),
-        Err(CarveError::Nothing)
-    );
+    assert_eq!(open.carve(Fill::Seeds, &[], &[], &[]), Err(CarveError::Nothing));
 }
 
 #[test]
@@ -673,16 +500,12 @@ fn points_are_located() {
 fn a_flood_stops_at_segments_and_labels_are_inherited() {
     let (points, segments) = squares();
     let mut m = built(&points, &segments).unwrap();
-    m.carve(Fill::Seeds, &[], &[], &[Point2::new(0.25, 0.28)])
-        .unwrap();
+    m.carve(Fill::Seeds, &[], &[], &[Point2::new(0.25, 0.28)]).unwrap();
     let labels = labelled(&m);
     let mut change = Change::default();
     // Close under the inner square's top edge: the triangle beyond is in conflict but hidden.
     let p = Point2::new(4.0, 5.9375) / 16.0;
-    let t = m
-        .triangles()
-        .find(|&t| m.region(t) == 1 && K::in_circle(m.corners(t), p).is_positive())
-        .unwrap();
+    let t = m.triangles().find(|&t| m.region(t) == 1 && K::in_circle(m.corners(t), p).is_positive()).unwrap();
     m.insert(t, p, &mut change);
     validate(&m);
     assert_eq!(labelled(&m), labels);
@@ -733,18 +556,10 @@ fn no_vertex_in_conflict_is_seen() {
                     let apart = K::orient2d(a, b, center) == K::orient2d(a, b, q).reversed();
                     let [at_a, at_b] = [a, b].map(|p| K::orient2d(center, q, p));
                     // Seen past an end is seen; q itself may be an end.
-                    apart
-                        && K::orient2d(a, b, q) != Sign::Zero
-                        && at_a == at_b.reversed()
-                        && at_a != Sign::Zero
+                    apart && K::orient2d(a, b, q) != Sign::Zero && at_a == at_b.reversed() && at_a != Sign::Zero
                 });
-                let through_vertex = points
-                    .iter()
-                    .any(|&p| p != q && K::orient2d(center, q, p) == Sign::Zero);
-                assert!(
-                    crossed || through_vertex,
-                    "seed {seed}: {corners:?} and {q}"
-                );
+                let through_vertex = points.iter().any(|&p| p != q && K::orient2d(center, q, p) == Sign::Zero);
+                assert!(crossed || through_vertex, "seed {seed}: {corners:?} and {q}");
                 hidden += 1;
             }
         }
@@ -760,9 +575,7 @@ fn validators_reject_what_is_wrong() {
     let good = built(&points, &segments).unwrap();
     let inner = |m: &Cdt, constrained: bool| {
         let mut edges = m.triangles().flat_map(|t| m.edges(t));
-        edges
-            .find(|&e| m.twin(e).is_some() && m.is_constrained(e) == constrained)
-            .unwrap()
+        edges.find(|&e| m.twin(e).is_some() && m.is_constrained(e) == constrained).unwrap()
     };
     let broken = |damage: &dyn Fn(&mut Cdt)| {
         let mut m = good.clone();
@@ -774,8 +587,7 @@ fn validators_reject_what_is_wrong() {
     let fixed = inner(&good, true);
     let slot = |e: HalfEdge| ((e.0 >> 2) as usize, (e.0 & 3) as usize);
 
-    let m =
-        broken(&|m| m.slots[slot(plain).0].link[slot(plain).1] = super::store::Link::to(plain.0));
+    let m = broken(&|m| m.slots[slot(plain).0].link[slot(plain).1] = super::store::Link::to(plain.0));
     assert!(matches!(links(&m), Violation::Link(..)));
     let m = broken(&|m| m.slots[slot(plain).0].link[slot(plain).1] = m.link(plain.0).constrained());
     assert!(matches!(links(&m), Violation::Link(..)));
@@ -790,38 +602,24 @@ fn validators_reject_what_is_wrong() {
 
     let m = broken(&|m| m.points.swap(0, 1));
     m.validate_links().unwrap();
-    assert!(matches!(
-        m.validate_orientation(),
-        Err(Violation::Orientation(_))
-    ));
+    assert!(matches!(m.validate_orientation(), Err(Violation::Orientation(_))));
 
     // A segment forgotten shows unless its edge is Delaunay anyway: some is not.
     let mut shown = 0;
-    for e in good
-        .triangles()
-        .flat_map(|t| good.edges(t))
-        .filter(|&e| good.is_constrained(e))
-    {
+    for e in good.triangles().flat_map(|t| good.edges(t)).filter(|&e| good.is_constrained(e)) {
         let Some(f) = good.twin(e) else { continue };
         let m = broken(&|m| {
             m.slots[slot(e).0].link[slot(e).1] = super::store::Link::to(f.0);
             m.slots[slot(f).0].link[slot(f).1] = super::store::Link::to(e.0);
         });
         m.validate_links().unwrap();
-        shown += usize::from(matches!(
-            m.validate_delaunay(),
-            Err(Violation::Delaunay(..))
-        ));
+        shown += usize::from(matches!(m.validate_delaunay(), Err(Violation::Delaunay(..))));
     }
     assert!(shown > 0);
 
     good.validate_hull().unwrap();
     let mut m = Cdt::delaunay(points.clone()).unwrap();
-    let hull = m
-        .triangles()
-        .flat_map(|t| m.edges(t))
-        .find(|&e| m.twin(e).is_none())
-        .unwrap();
+    let hull = m.triangles().flat_map(|t| m.edges(t)).find(|&e| m.twin(e).is_none()).unwrap();
     let t = m.triangle_of(hull);
     for e in m.edges(t) {
         if let Some(f) = m.twin(e) {
@@ -853,11 +651,7 @@ fn large_ones_are_valid() {
         };
         let points: Vec<Point2> = (0..n).map(|_| spread(&mut draw)).collect();
         let coarse = Cdt::delaunay(points[..n / 3].to_vec()).unwrap();
-        let edges = coarse.triangles().flat_map(|t| {
-            coarse
-                .edges(t)
-                .map(|e| [coarse.origin(e), coarse.destination(e)])
-        });
+        let edges = coarse.triangles().flat_map(|t| coarse.edges(t).map(|e| [coarse.origin(e), coarse.destination(e)]));
         let segments: Vec<_> = edges.filter(|[u, v]| u < v).step_by(2).collect();
         let m = built(&points, &segments).unwrap();
         validate(&m);

@@ -59,10 +59,7 @@ impl<K: Kernel> Cdt2<K> {
         if let Some(&t) = self.free.iter().find(|&&t| self.holds(t)) {
             return Err(Violation::Free(TriId(t)));
         }
-        if free != self.free.len()
-            || self.labels.len() != self.slots.len()
-            || self.hints.len() != self.points.len()
-        {
+        if free != self.free.len() || self.labels.len() != self.slots.len() || self.hints.len() != self.points.len() {
             return Err(Violation::Free(TriId(NONE)));
         }
         for (v, (&hint, used)) in (0u32..).zip(self.hints.iter().zip(used)) {
@@ -159,11 +156,7 @@ impl<K: Kernel> Cdt2<K> {
         let triangles = self.triangle_count();
         // Euler: t = 2 n - 2 - h.
         if u != start || triangles + 2 + border != 2 * vertices {
-            return Err(Violation::Count {
-                triangles,
-                vertices,
-                border,
-            });
+            return Err(Violation::Count { triangles, vertices, border });
         }
         Ok(())
     }

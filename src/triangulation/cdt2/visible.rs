@@ -42,7 +42,7 @@ impl<K: Kernel> Cdt2<K> {
         let beyond = self.edges(t).map(|e| self.side(e.0, a) != Sign::Positive);
         for (k, e) in self.edges(t).into_iter().enumerate() {
             // of two edges with a beyond, the one on the walk's side of their common corner
-            let twice = beyond[k] && beyond[(k + 1) % 3] || beyond[(k + 2) % 3] && beyond[k];
+            let twice = beyond[(k + 1) % 3] || beyond[(k + 2) % 3];
             if beyond[k] && (!twice || self.leaves_through(from, a, e)) {
                 exit = Some(e);
                 break;
@@ -59,18 +59,11 @@ impl<K: Kernel> Cdt2<K> {
                 return Walk::Reached;
             }
             let (right, left) = (self.next(entry), self.prev(entry));
-            exit = match (
-                self.side(right.0, a) != Sign::Positive,
-                self.side(left.0, a) != Sign::Positive,
-            ) {
+            exit = match (self.side(right.0, a) != Sign::Positive, self.side(left.0, a) != Sign::Positive) {
                 (false, false) => None,
                 (true, false) => Some(right),
                 (false, true) => Some(left),
-                (true, true)
-                    if K::walk_side(from, a, self.point(self.apex(entry))).is_positive() =>
-                {
-                    Some(right)
-                }
+                (true, true) if K::walk_side(from, a, self.point(self.apex(entry))).is_positive() => Some(right),
                 (true, true) => Some(left),
             };
         }
@@ -97,10 +90,7 @@ impl<K: Kernel> Cdt2<K> {
         let mut cones: Vec<Cone> = Vec::new();
         for out in self.edges_around(w) {
             let edge = self.next(out);
-            let (a, b) = (
-                self.point(self.origin(edge)),
-                self.point(self.destination(edge)),
-            );
+            let (a, b) = (self.point(self.origin(edge)), self.point(self.destination(edge)));
             let right = if between::<K>(at, a, right, b) {
                 right
             } else if between::<K>(at, right, a, left) {
@@ -108,11 +98,7 @@ impl<K: Kernel> Cdt2<K> {
             } else {
                 continue;
             };
-            let left = if K::orient2d(at, left, b).is_negative() {
-                b
-            } else {
-                left
-            };
+            let left = if K::orient2d(at, left, b).is_negative() { b } else { left };
             cones.push(Cone { right, left, edge });
         }
         while let Some(Cone { right, left, edge }) = cones.pop() {
@@ -120,9 +106,7 @@ impl<K: Kernel> Cdt2<K> {
                 match target {
                     Target::Interior => return true,
                     Target::Point(p) => {
-                        if K::orient2d(at, right, p).is_positive()
-                            && K::orient2d(at, p, left).is_positive()
-                        {
+                        if K::orient2d(at, right, p).is_positive() && K::orient2d(at, p, left).is_positive() {
                             return true;
                         }
                         continue;
@@ -137,28 +121,12 @@ impl<K: Kernel> Cdt2<K> {
             };
             let c = self.point(self.apex(entry));
             if K::orient2d(at, right, c).is_positive() {
-                let left = if K::orient2d(at, left, c).is_negative() {
-                    c
-                } else {
-                    left
-                };
-                cones.push(Cone {
-                    right,
-                    left,
-                    edge: self.next(entry),
-                });
+                let left = if K::orient2d(at, left, c).is_negative() { c } else { left };
+                cones.push(Cone { right, left, edge: self.next(entry) });
             }
             if K::orient2d(at, c, left).is_positive() {
-                let right = if K::orient2d(at, right, c).is_positive() {
-                    c
-                } else {
-                    right
-                };
-                cones.push(Cone {
-                    right,
-                    left,
-                    edge: self.prev(entry),
-                });
+                let right = if K::orient2d(at, right, c).is_positive() { c } else { right };
+                cones.push(Cone { right, left, edge: self.prev(entry) });
             }
         }
         false
