@@ -52,6 +52,7 @@ pub fn carve_finding(error: &CarveError, pslg: &Pslg, lines: &Lines) -> Finding 
     match error {
         CarveError::OnSegment(seed) => Finding::seed_on_segment(element(seed), pslg, lines),
         CarveError::Outside(seed) => Finding::seed_outside(element(seed), pslg, lines),
+        CarveError::OpenCycle(v) => Finding::open_cycle(*v, &[], pslg, lines),
         CarveError::OneFace(i, j) => Finding::seeds_in_one_face(*i as u32, *j as u32, pslg, lines),
         CarveError::Nothing => Finding::no_closed_region(),
     }

@@ -414,3 +414,47 @@ fn traces() {
     rejected("crossing", &with(segment, "{\"segment\":[0,2]"), &["rule"]);
     rejected("more", &[&binary[..], b"x"].concat(), &["Format", "more follows"]);
 }
+
+/// What files cannot say and a library user can: every planted defect is found as what it is, with its place, and is refused or repaired.
+#[cfg(feature = "generators")]
+#[test]
+fn planted_defects() {
+    use orthoball::arith::FastKernel;
+    use orthoball::doctor::examine;
+    use orthoball::domain::{Kind, Severity};
+    use orthoball::generators::{Defect, SplitMix64, broken};
+    use orthoball::model::Lines;
+    let expected = |defect| match defect {
+        Defect::Crossing => Kind::Crossing,
+        Defect::Duplicate => Kind::CoincidentVertices,
+        Defect::ZeroLength => Kind::ZeroLength,
+        Defect::Overlap => Kind::Overlap,
+        Defect::Doubled => Kind::DoubledSegment,
+        Defect::OnSegment => Kind::VertexOnSegment,
+        Defect::NotANumber | Defect::Infinite => Kind::NotFinite,
+        Defect::TooLarge | Defect::TooSmall => Kind::OutOfRange,
+        Defect::WrongIndex => Kind::BadIndex,
+        Defect::Open | Defect::Empty | Defect::Flat => Kind::NoClosedRegion,
+        Defect::HoleOnSegment => Kind::SeedOnSegment,
+        Defect::HoleOutside => Kind::SeedOutside,
+        Defect::TwoRegions => Kind::SeedsInOneFace,
+        Defect::OpenCycle => Kind::OpenCycle,
+    };
+    let unplaced = [Kind::NoClosedRegion, Kind::BadIndex];
+    for defect in Defect::ALL {
+        for seed in 0..40 {
+            let graph = broken(defect, 3 + seed as usize, &mut SplitMix64(seed));
+            let found = examine::<FastKernel>(&graph, &Lines::default());
+            let kind = expected(defect);
+            let of_kind: Vec<_> = found.findings.iter().filter(|f| f.kind == kind).collect();
+            assert!(!of_kind.is_empty(), "{defect:?} {seed}: {:?}", found.findings);
+            assert!(unplaced.contains(&kind) || of_kind.iter().all(|f| !f.coordinates.is_empty()), "{of_kind:?}");
+            assert_eq!(
+                found.has_errors(),
+                kind.severity() == Severity::Error,
+                "{defect:?} {seed}: {:?}",
+                found.findings
+            );
+        }
+    }
+}

@@ -38,10 +38,7 @@ impl<'a> Arbitrary<'a> for GcdrCase {
         let fill = [Fill::Seeds, Fill::Seeds, Fill::Convex, Fill::Parity][draw.below(4) as usize];
         let area = draw.below(8);
         let n = 3 + draw.below(MOST_VERTICES - 2) as usize;
-        let mut pslg = pslg(family, n, draw);
-        if fill != Fill::Parity || closes_up(&pslg) {
-            pslg.fill = fill;
-        }
+        let pslg = Pslg { fill, ..pslg(family, n, draw) };
         if area >= 5 {
             // From some dozen to some thousand triangles over the bounding box.
             parameters.max_area = Some(box_area(&pslg) * scale::by_power_of_two(0.75, 2 - 3 * (area as i32 - 4)))
@@ -49,15 +46,6 @@ impl<'a> Arbitrary<'a> for GcdrCase {
         }
         Ok(GcdrCase { family, pslg, parameters, steps })
     }
-}
-
-/// Whether the toggling segments are closed cycles, as rings are: an even number of them at every vertex.
-fn closes_up(pslg: &Pslg) -> bool {
-    let mut odd = vec![false; pslg.points.len()];
-    for v in pslg.segments.iter().filter(|s| s.toggles).flat_map(|s| s.ends) {
-        odd[v.index()] ^= true;
-    }
-    !odd.contains(&true)
 }
 
 fn box_area(pslg: &Pslg) -> f64 {

@@ -35,6 +35,8 @@ pub enum Kind {
     CoincidentVertices,
     /// Error: two segments cross where no vertex is.
     Crossing,
+    /// Error: under `Fill::Parity`, an odd number of toggling segments meet in a vertex: they close no cycle, and inside cannot be told from outside.
+    OpenCycle,
     /// Error: segments enclose no face.
     NoClosedRegion,
     /// Error: a hole or region seed lies on a segment.
@@ -68,8 +70,8 @@ impl Kind {
     pub fn severity(self) -> Severity {
         use Kind::*;
         match self {
-            NotFinite | OutOfRange | BadIndex | CoincidentVertices | Crossing | NoClosedRegion | SeedOnSegment
-            | SeedOutside | SeedsInOneFace => Severity::Error,
+            NotFinite | OutOfRange | BadIndex | CoincidentVertices | Crossing | OpenCycle | NoClosedRegion
+            | SeedOnSegment | SeedOutside | SeedsInOneFace => Severity::Error,
             VertexOnSegment | Overlap | DoubledSegment | ZeroLength => Severity::Repair,
             SmallAngle | DanglingSegment | IsolatedVertex | Outside | NothingLeft => Severity::Note,
         }
@@ -86,6 +88,7 @@ impl Kind {
             }
             CoincidentVertices => "keep one of the vertices and let the segments refer to it",
             Crossing => "put a vertex at the crossing and split both segments there",
+            OpenCycle => "let every ring of toggling segments close, or let the loose ones not toggle",
             NoClosedRegion => "close the boundary with segments, or mesh the convex hull (--convex)",
             SeedOnSegment => "move the seed off the segment, into the face it stands for",
             SeedOutside => "move the seed into the face it stands for, or remove it",
@@ -171,6 +174,17 @@ impl Finding {
     /// What to do about it.
     pub fn fix(&self) -> &'static str {
         self.kind.fix()
+    }
+
+    /// A vertex in which these toggling segments meet, an odd number.
+    pub fn open_cycle(v: VertexId, meeting: &[SegmentId], pslg: &Pslg, lines: &Lines) -> Self {
+        let at = pslg.points.get(v.index()).copied().unwrap_or_default();
+        let message = format!(
+            "the toggling segments do not close up at vertex {} ({}, {}): an odd number of them meet there",
+            v.0, at.x, at.y
+        );
+        let elements = [Element::Vertex(v)].into_iter().chain(meeting.iter().map(|&s| Element::Segment(s))).collect();
+        Finding::new(Kind::OpenCycle, elements, vec![at], lines, message)
     }
 
     /// Segments enclose no face.

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::arith::FastKernel;
-use crate::model::{Lines, Point2, Pslg, Region, Segment, VertexId};
+use crate::model::{Fill, Lines, Point2, Pslg, Region, Segment, VertexId};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
@@ -66,6 +66,39 @@ fn table_of_findings() {
         let expected: Vec<_> = expected.into_iter().map(|(k, s)| (k, s.to_string())).collect();
         assert_eq!(told(&prepared(&g)), expected, "{:?}", g.segments);
     }
+}
+
+#[test]
+fn toggling_segments_close_up() {
+    let lines = Lines { points: (2..8).collect(), segments: (10..20).collect(), ..Lines::default() };
+    let square = [(0, 0), (4, 0), (4, 4), (0, 4), (2, 0), (2, 4)];
+    let ring = [(0, 1), (1, 2), (2, 3), (3, 0)];
+    let with = |segments: &[(u32, u32)], toggles: &[bool]| {
+        let mut g = graph(&square, segments);
+        g.fill = Fill::Parity;
+        for (i, s) in g.segments.iter_mut().enumerate() {
+            s.toggles = toggles.get(i).copied().unwrap_or(true);
+        }
+        let all = prepare::<FastKernel>(&g, &lines).findings;
+        let open: Vec<_> = all.into_iter().filter(|f| f.kind == Kind::OpenCycle).collect();
+        assert!(open.iter().all(|f| f.severity() == Severity::Error));
+        open.iter().map(|f| (f.to_string(), f.coordinates.clone(), f.lines.clone())).collect::<Vec<_>>()
+    };
+    assert_eq!(with(&ring, &[]), []);
+    // A wall that toggles nothing, a doubled one, and one that joins a vertex to itself, change nothing.
+    assert_eq!(with(&[&ring[..], &[(4, 5)]].concat(), &[true, true, true, true, false]), []);
+    assert_eq!(with(&[&ring[..], &[(4, 5), (5, 4), (3, 3)]].concat(), &[]), []);
+    // The parts of a ring between vertices inside its segments close as it does.
+    assert_eq!(with(&[(0, 1), (1, 2), (2, 3), (3, 0), (4, 0), (0, 3), (3, 5), (5, 4)], &[]), []);
+    let told = with(&ring, &[true, true, true, false]);
+    let places: Vec<_> = told.iter().map(|t| (t.1[0], &t.2[..])).collect();
+    assert_eq!(places, [(Point2::new(0.0, 0.0), &[2, 10][..]), (Point2::new(0.0, 4.0), &[5, 12][..])]);
+    assert!(told[0].0.starts_with("error: the toggling segments do not close up at vertex 0 (0, 0)"), "{}", told[0].0);
+    // A dangling wall to the middle of a side: odd at both its ends, the one on the side included.
+    assert_eq!(with(&[&ring[..], &[(4, 2)]].concat(), &[]).iter().map(|t| t.2.len()).collect::<Vec<_>>(), [4, 2]);
+    // Under other fills nothing is asked.
+    let open = Pslg { fill: Fill::Convex, ..graph(&square, &ring) };
+    assert!(prepared(&open).findings.iter().all(|f| f.kind != Kind::OpenCycle));
 }
 
 #[test]

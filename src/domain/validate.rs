@@ -6,7 +6,7 @@ use super::normalise::{Scale, normalise_all, seed_in_range};
 use super::repair::repair;
 use super::sweep::{Span, sweep};
 use crate::arith::{Kernel, perturb::lexicographic};
-use crate::model::{Lines, Point2, Pslg, Segment, SegmentId, VertexId};
+use crate::model::{Fill, Lines, Point2, Pslg, Segment, SegmentId, VertexId};
 
 /// An input made ready, with all that was found in it.
 #[derive(Clone, Debug, Default)]
@@ -34,6 +34,9 @@ pub fn prepare<K: Kernel>(pslg: &Pslg, lines: &Lines) -> Prepared {
     let (vertices, scale) = vertices(pslg, lines, &mut findings);
     numbers(pslg, lines, scale, &mut findings);
     let spans = spans(pslg, lines, &vertices, &mut findings);
+    if pslg.fill == Fill::Parity {
+        open_cycles(pslg, lines, &vertices, &mut findings);
+    }
     let mut contacts = sweep::<K>(&vertices.points, &vertices.order, &spans);
     let crossed = crossings::<K>(&vertices.points, &vertices.order, &spans, &contacts.suspects);
     contacts.incidences.extend(&crossed.incidences);
@@ -155,6 +158,25 @@ fn spans(pslg: &Pslg, lines: &Lines, vertices: &Vertices, findings: &mut Finding
         spans.push(Span { ends, id: i as u32 });
     }
     spans
+}
+
+/// Places where an odd number of toggling segments meet. Crossing segments around such a place leads back to it on the other side. Repairs
+/// change nothing of this: a vertex inside a segment meets both parts, equal parts count modulo 2. Segments without two ends have their finding.
+fn open_cycles(pslg: &Pslg, lines: &Lines, vertices: &Vertices, findings: &mut Findings) {
+    let place = |v: VertexId| match vertices.rank[v.index()] {
+        u32::MAX => v.0,
+        rank => vertices.order[rank as usize],
+    };
+    let segments = (0u32..).map(SegmentId).zip(&pslg.segments);
+    let toggling = segments.filter(|(_, s)| s.toggles && s.ends.iter().all(|v| v.index() < pslg.points.len()));
+    let mut meeting: Vec<(u32, SegmentId)> = toggling.flat_map(|(i, s)| s.ends.map(|v| (place(v), i))).collect();
+    meeting.sort_unstable();
+    for here in meeting.chunk_by(|a, b| a.0 == b.0).filter(|here| here.len() % 2 == 1) {
+        findings.add(Kind::OpenCycle, || {
+            let segments: Vec<SegmentId> = here.iter().map(|m| m.1).collect();
+            Finding::open_cycle(VertexId(here[0].0), &segments, pslg, lines)
+        });
+    }
 }
 
 fn report_crossings(

@@ -3,7 +3,7 @@
 use super::draw::{Draw, two_to};
 use super::graphs::{PslgFamily, pslg};
 use super::point_sets::PointFamily;
-use crate::model::{Point2, Pslg, Region, Segment, VertexId};
+use crate::model::{Fill, Point2, Pslg, Region, Segment, VertexId};
 
 /// What is wrong with a graph. Severity as in the reference of `doctor`: `Overlap`, `Doubled` and `OnSegment` are repairs, the rest errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, arbitrary::Arbitrary)]
@@ -42,11 +42,13 @@ pub enum Defect {
     Empty,
     /// Vertices all on one line.
     Flat,
+    /// Under `Fill::Parity`, toggling segments that do not close up.
+    OpenCycle,
 }
 
 impl Defect {
     /// All defects.
-    pub const ALL: [Defect; 17] = {
+    pub const ALL: [Defect; 18] = {
         use Defect::*;
         [
             Crossing,
@@ -66,6 +68,7 @@ impl Defect {
             TwoRegions,
             Empty,
             Flat,
+            OpenCycle,
         ]
     };
 }
@@ -113,7 +116,11 @@ pub fn broken(defect: Defect, n: usize, draw: &mut impl Draw) -> Pslg {
             g.regions.extend([region(step), region(step + 1.0)]);
         }
         Defect::Empty => return Pslg::default(),
-        Defect::Flat => g.points.iter_mut().for_each(|p| p.y = 2.0 * p.x),
+        Defect::Flat => g.points = (0..4).map(|i| Point2::new(step, 2.0 * step) * f64::from(i)).collect(),
+        Defect::OpenCycle => {
+            g.fill = Fill::Parity;
+            g.segments.push(segment(victim, (victim + 2) % 4));
+        }
     }
     if matches!(defect, Defect::Open | Defect::Flat | Defect::TooLarge) || n < 12 {
         return g;
@@ -172,8 +179,10 @@ mod tests {
     fn each_defect_is_there_and_alone() {
         use Defect::*;
         for defect in Defect::ALL {
-            let geometric =
-                !matches!(defect, TooLarge | TooSmall | Open | HoleOnSegment | HoleOutside | TwoRegions | Empty | Flat);
+            let geometric = !matches!(
+                defect,
+                TooLarge | TooSmall | Open | OpenCycle | HoleOnSegment | HoleOutside | TwoRegions | Empty | Flat
+            );
             for seed in 0..30 {
                 let g = broken(defect, 3 + seed as usize, &mut SplitMix64(seed));
                 match defect {

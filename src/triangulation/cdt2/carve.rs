@@ -5,7 +5,7 @@
 use super::Location;
 use super::store::{Cdt2, Link, NONE, OUTSIDE};
 use crate::arith::Kernel;
-use crate::model::{Fill, Point2};
+use crate::model::{Fill, Point2, VertexId};
 
 /// A seed, by its position in its list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +37,9 @@ pub enum CarveError {
     /// Two region seeds lie in one face.
     #[error("seeds of regions {0} and {1} lie in one face")]
     OneFace(usize, usize),
+    /// Under `Fill::Parity`, an odd number of toggling segments meet in a vertex: around it no side is left as it was entered.
+    #[error("an odd number of toggling segments meet in vertex {}", .0.0)]
+    OpenCycle(VertexId),
     /// No face is enclosed. (That holes take every enclosed face is no error: nothing is kept.)
     #[error("no region is closed by segments")]
     Nothing,
@@ -72,7 +75,7 @@ impl<K: Kernel> Cdt2<K> {
         Ok(())
     }
 
-    /// Everything that `carve` would refuse: holes, then regions, each in order.
+    /// Everything that `carve` would refuse: open cycles, holes, then regions, each in order.
     pub fn carve_findings(
         &self,
         fill: Fill,
@@ -91,7 +94,7 @@ impl<K: Kernel> Cdt2<K> {
             Fill::Convex => vec![true; faces.kept.len()],
         };
         faces.kept.clone_from(&inside);
-        let mut findings = Vec::new();
+        let mut findings = if fill == Fill::Parity { self.open_cycles(toggles) } else { Vec::new() };
         for (i, &p) in holes.iter().enumerate() {
             match self.face_at(&faces, p) {
                 Err(on) => findings.push(on.error(Seed::Hole(i))),
@@ -152,10 +155,27 @@ impl<K: Kernel> Cdt2<K> {
         inside
     }
 
-    /// Which faces are reached from outside across an odd number of toggling segments. (If segments that do not close up give
-    /// two answers, the one of the first path found, breadth first by slots.)
+    /// Whether a half-edge is of a toggling segment.
+    fn is_toggling(&self, e: u32, toggles: &[bool]) -> bool {
+        self.link(e).is_constrained() && toggles.get(self.label(e) as usize) == Some(&true)
+    }
+
+    /// The vertices in which an odd number of toggling segments meet. Without any, each face has one answer to `odd`.
+    fn open_cycles(&self, toggles: &[bool]) -> Vec<CarveError> {
+        let mut odd = vec![false; self.vertex_count()];
+        for e in self.triangles().flat_map(|t| self.edges(t)) {
+            let once = self.link(e.0).twin().is_none_or(|f| e.0 < f);
+            if once && self.is_toggling(e.0, toggles) {
+                odd[self.origin(e).index()] ^= true;
+                odd[self.destination(e).index()] ^= true;
+            }
+        }
+        (0u32..).zip(odd).filter(|v| v.1).map(|v| CarveError::OpenCycle(VertexId(v.0))).collect()
+    }
+
+    /// Which faces are reached from outside across an odd number of toggling segments.
     fn odd(&self, faces: &Faces, toggles: &[bool]) -> Vec<bool> {
-        let toggled = |e: u32| self.link(e).is_constrained() && toggles.get(self.label(e) as usize) == Some(&true);
+        let toggled = |e: u32| self.is_toggling(e, toggles);
         // (face, face beyond or NONE outside, whether the passage toggles)
         let mut passages: Vec<(u32, u32, bool)> = Vec::new();
         for e in self.triangles().flat_map(|t| self.edges(t)) {

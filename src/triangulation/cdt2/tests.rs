@@ -447,6 +447,15 @@ fn carving_keeps_what_it_says() {
     m.carve(Fill::Parity, &[true, true, true, true, false, false, false, false], &[], &[]).unwrap();
     assert_eq!(m.triangle_count(), 10);
 
+    // One side of the inner square toggles nothing, then one of the outer, on the hull: what they bound is both inside and outside.
+    for loose in [4, 3] {
+        let toggles: Vec<bool> = (0..8).map(|s| s != loose).collect();
+        let open = segments[loose].map(CarveError::OpenCycle);
+        let mut expected = open.to_vec();
+        expected.sort_by_key(|e| e.to_string());
+        assert_eq!(fresh().carve_findings(Fill::Parity, &toggles, &[], &[]), expected);
+    }
+
     let mut m = fresh();
     m.carve(Fill::Convex, &[], &[], &[inner, ring]).unwrap();
     assert_eq!(m.triangle_count(), 11);
