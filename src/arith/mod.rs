@@ -20,6 +20,7 @@ mod plain;
 mod poly;
 mod round;
 pub mod scale;
+pub mod space;
 
 pub use dyadic::Dyadic;
 #[cfg(feature = "exact")]

@@ -19,3 +19,28 @@ pub fn canonical_triangle(t: [VertexId; 3]) -> Triangle {
         [c, a, b]
     }
 }
+
+/// A facet (a triangle in space) or a tetrahedron's side by its vertices; the orientation is the context's.
+pub type Facet = [VertexId; 3];
+
+/// A positively oriented tetrahedron by its vertices in ascending order, save that the last two are swapped where ascending order is
+/// negative: equal tetrahedra have equal tuples.
+pub type Tetrahedron = [VertexId; 4];
+
+/// The even permutation of a positively oriented tetrahedron that is its canonical tuple.
+pub fn canonical_tetrahedron(mut t: [VertexId; 4]) -> Tetrahedron {
+    let mut odd = false;
+    // Insertion sort; every exchange flips the parity.
+    for i in 1..4 {
+        let mut j = i;
+        while j > 0 && t[j] < t[j - 1] {
+            t.swap(j, j - 1);
+            odd = !odd;
+            j -= 1;
+        }
+    }
+    if odd {
+        t.swap(2, 3);
+    }
+    t
+}
