@@ -308,6 +308,13 @@ fn node_and_ele_meshes() {
         ("negative index", nodes.into(), changed(triangles, "1 3 4", "1 3 -1"), 2, [".ele line 3", "-1"]),
         ("repeated triangle", nodes.into(), changed(triangles, "1 3 4", "1 2 3"), 1, ["valid", "VIOLATED"]),
         ("repeated point", changed(nodes, "4 0 2", "4 2 0"), triangles.into(), 1, ["valid", "VIOLATED"]),
+        (
+            "vertex left out",
+            changed(nodes, "4 2 0 0", "5 2 0 0") + "5 1.5 0.5\n",
+            triangles.into(),
+            1,
+            ["vertex 4 at (1.5, 0.5) belongs to no triangle", "triangle 0"],
+        ),
     ];
     for (case, node, ele, code, says) in cases {
         let files: [(&str, &[u8]); 2] = [("in.node", node.as_bytes()), ("in.ele", ele.as_bytes())];

@@ -2,6 +2,7 @@
 
 use super::complex::Complex;
 use super::exact::{in_circle, in_conflict, orient};
+use super::isolated::Isolated;
 use super::report::{Claim, ClaimReport, Verdict};
 use super::tree::Tree;
 use crate::check::scalar::{Bounded, Scalar};
@@ -9,14 +10,18 @@ use crate::model::Point2;
 use std::cmp::Ordering;
 
 /// Local test at every unconstrained edge: by the constrained Delaunay lemma equivalent to circles empty of visible vertices.
-pub(super) fn constrained(complex: &Complex<'_>, constraints: &[bool]) -> ClaimReport {
+pub(super) fn constrained(complex: &Complex<'_>, constraints: &[bool], isolated: &Isolated) -> ClaimReport {
     let inside = |t, q| in_circle(t, q) == Ordering::Greater;
-    local(complex, Claim::Constrained, constraints, inside).conclude("no visible vertex inside a circle")
+    let mut report = local(complex, Claim::Constrained, constraints, inside);
+    isolated.tell(complex, &mut report);
+    report.conclude("no visible vertex inside a circle")
 }
 
 /// As `constrained`, ties decided by the perturbation.
-pub(super) fn canonical(complex: &Complex<'_>, constraints: &[bool]) -> ClaimReport {
-    local(complex, Claim::Canonical, constraints, in_conflict).conclude("no conflict under the one tie-break")
+pub(super) fn canonical(complex: &Complex<'_>, constraints: &[bool], isolated: &Isolated) -> ClaimReport {
+    let mut report = local(complex, Claim::Canonical, constraints, in_conflict);
+    isolated.tell(complex, &mut report);
+    report.conclude("no conflict under the one tie-break")
 }
 
 fn local(
@@ -48,7 +53,7 @@ fn witness(report: &mut ClaimReport, complex: &Complex<'_>, t: u32, q: u32) {
 }
 
 /// Circles empty of all vertices. In a convex region the local test suffices; else each circle is searched for vertices.
-pub(super) fn delaunay(complex: &Complex<'_>) -> ClaimReport {
+pub(super) fn delaunay(complex: &Complex<'_>, isolated: &Isolated) -> ClaimReport {
     let none = vec![false; complex.twin.len()];
     let inside = |t, q| in_circle(t, q) == Ordering::Greater;
     let mut report = local(complex, Claim::Delaunay, &none, inside);
@@ -73,6 +78,7 @@ pub(super) fn delaunay(complex: &Complex<'_>) -> ClaimReport {
             }
         }
     }
+    isolated.tell(complex, &mut report);
     report.conclude("no vertex inside a circle")
 }
 

@@ -18,6 +18,9 @@
 //! - `quality`: every triangle has a circumradius below rho times its shortest edge; without a rho, figures are told.
 //! - `topology`: figures, told.
 //!
+//! A vertex of the file that belongs to no triangle violates `delaunay`, `constrained` and `canonical` if it lies in a triangle or on its
+//! border (`isolated`); one at the place of a corner, or outside of every triangle, is counted and told.
+//!
 //! A claim that rests on a violated `valid` is violated if a witness is found, else unchecked.
 
 mod border;
@@ -26,6 +29,7 @@ mod conforming;
 mod delaunay;
 mod exact;
 mod figures;
+mod isolated;
 mod report;
 #[cfg(test)]
 mod tests;
@@ -35,6 +39,7 @@ pub use report::{Claim, ClaimReport, LISTED_WITNESSES, Report, Verdict, Witness}
 
 use crate::model::{Lines, Point2, Pslg, VertexId};
 use complex::Complex;
+use isolated::Isolated;
 
 /// A mesh to be audited, as found in a file. Indices may be wrong, coordinates not finite.
 #[derive(Clone, Debug, Default)]
@@ -77,14 +82,15 @@ pub fn audit(subject: &Subject<'_>, options: &Options<'_>) -> Report {
     let (complex, valid) = Complex::new(subject);
     let sound = valid.verdict == Verdict::Holds;
     let chains = conforming::conforming(&complex, options);
+    let isolated = Isolated::of(&complex);
     let mut claims = Vec::new();
     for &claim in options.claims {
         let mut report = match claim {
             Claim::Valid => valid.clone(),
             Claim::Orientation => complex::orientation(&complex),
-            Claim::Delaunay => delaunay::delaunay(&complex),
-            Claim::Constrained => delaunay::constrained(&complex, &chains.constraints),
-            Claim::Canonical => delaunay::canonical(&complex, &chains.constraints),
+            Claim::Delaunay => delaunay::delaunay(&complex, &isolated),
+            Claim::Constrained => delaunay::constrained(&complex, &chains.constraints, &isolated),
+            Claim::Canonical => delaunay::canonical(&complex, &chains.constraints, &isolated),
             Claim::Conforming => chains.report.clone(),
             Claim::Quality => figures::quality(&complex, options.rho2),
             Claim::Topology => figures::topology(&complex),

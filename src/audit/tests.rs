@@ -268,6 +268,56 @@ fn constraints_hide_vertices() {
 }
 
 #[test]
+fn a_vertex_of_no_triangle_in_a_triangle() {
+    // Two triangles without a tie between them.
+    let kite = [(0.0, 0.0), (4.0, 0.0), (3.5, 3.5), (0.0, 4.0)];
+    let (t, diagonal) = (ids(&[[0, 1, 2], [2, 3, 0]]), [[VertexId(0), VertexId(2)]]);
+    let verdicts = |extra: (f64, f64), edges: &[[VertexId; 2]]| {
+        let p = points(&[&kite[..], &[extra]].concat());
+        let subject = Subject { points: &p, triangles: &t, edges, ..Subject::default() };
+        let claims = [Claim::Delaunay, Claim::Constrained, Claim::Canonical];
+        audit(&subject, &Options { claims: &claims, ..Options::default() }).claims
+    };
+    // Inside, on the common edge, on the border. A constraint through the vertex does not hide it.
+    for (extra, holder) in [((3.0, 1.0), 0), ((2.0, 2.0), 0), ((0.0, 1.0), 1)] {
+        for report in verdicts(extra, &[]).into_iter().chain(verdicts(extra, &diagonal)) {
+            assert_eq!((report.verdict, report.violations), (Verdict::Violated, 1), "{extra:?} {report:?}");
+            let w = &report.witnesses[0];
+            assert_eq!((w.vertices[0], w.coordinates[0], &w.triangles[..]), (4, [extra.0, extra.1], &[holder][..]));
+            assert!(w.message.contains(&format!("vertex 4 at ({}, {})", extra.0, extra.1)), "{}", w.message);
+        }
+    }
+    // At a corner, outside, in a circle but outside, nowhere.
+    for extra in [(3.5, 3.5), (9.0, 9.0), (4.2, 2.0), (f64::NAN, 2.0)] {
+        for report in verdicts(extra, &[]) {
+            assert_eq!(report.verdict, Verdict::Holds, "{extra:?} {report:?}");
+            assert_eq!(report.figures, [("vertices_outside", 1.0)], "{extra:?}");
+        }
+    }
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(2000))]
+    /// Of many vertices in no triangle, those in triangles are told by the tree as by trying all.
+    #[test]
+    fn isolated_vertices_by_definition(extra in proptest::collection::vec((0i32..25, 0i32..25), 0..60)) {
+        let (ring, triangles) = ring();
+        let places: Vec<(f64, f64)> = extra.iter().map(|&(x, y)| (f64::from(x) / 4.0 - 1.0, f64::from(y) / 4.0 - 1.0)).collect();
+        // The ring: in the closed square, not in the open inner one; its corners are no violations.
+        let held = |&(x, y): &(f64, f64)| {
+            let within = |low: f64, high: f64| x >= low && x <= high && y >= low && y <= high;
+            let open = x > 1.0 && x < 3.0 && y > 1.0 && y < 3.0;
+            within(0.0, 4.0) && !open && !ring.contains(&(x, y))
+        };
+        let report = run(&[&ring[..], &places[..]].concat(), &triangles, Claim::Constrained);
+        let expected = places.iter().filter(|p| held(p)).count();
+        proptest::prop_assert_eq!(report.violations, expected as u64);
+        let others = report.figures.first().map_or(0.0, |f| f.1);
+        proptest::prop_assert_eq!(others, (places.len() - expected) as f64);
+    }
+}
+
+#[test]
 fn topology_counts() {
     let (p, t) = ring();
     let figures = run(&p, &t, Claim::Topology).figures;
