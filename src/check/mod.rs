@@ -25,6 +25,7 @@
 //! | `ledger`, `scale` | what the rules keep account of; units |
 //! | `start`, `promise`, `claims` | the initial triangulation and its region; the level; the end |
 //! | `strict` | the choices: order, points, skips |
+//! | `space` | tetrahedra: predicates and links, for traces and for `audit` |
 //! | `spacing` | local feature size, and the rows that speak of it |
 //! | `grading`, `scalar`, `rational` | constants of the theory, with square roots |
 
@@ -46,6 +47,7 @@ mod scale;
 mod shells;
 mod sight;
 mod snapshot;
+pub mod space;
 pub mod spacing;
 mod split;
 mod start;
