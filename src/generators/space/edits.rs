@@ -1,6 +1,6 @@
 //! Sequences of edits of a set of weighted points.
 
-use super::weights::{WeightFamily, power_above, spacing, weight};
+use super::weights::{Scale, WeightFamily, weight};
 use crate::generators::draw::Draw;
 use crate::model::WeightedPoint;
 
@@ -18,8 +18,7 @@ pub enum Edit {
 /// Edits of a set that starts empty: every point given is inserted in order; between insertions, and after the last, points that stand are
 /// removed or given another weight. About `extra` edits beyond the insertions; with `drain` all points are removed in the end, in random order.
 pub fn edits(points: &[WeightedPoint], extra: usize, drain: bool, draw: &mut impl Draw) -> Vec<Edit> {
-    let size = power_above(points.iter().fold(0.0, |m: f64, p| m.max(p.at.abs().max_element())));
-    let h = spacing(size, points.len());
+    let scale = Scale::of(points.iter().map(|p| p.at));
     let mut standing: Vec<u32> = Vec::new();
     let mut all = Vec::new();
     let (mut next, mut left) = (0, extra);
@@ -40,7 +39,7 @@ pub fn edits(points: &[WeightedPoint], extra: usize, drain: bool, draw: &mut imp
             all.push(Edit::Remove(standing.swap_remove(place)));
         } else {
             let family = WeightFamily::ALL[draw.below(WeightFamily::ALL.len() as u32) as usize];
-            let weight = weight(family, h, size, draw);
+            let weight = weight(family, scale, draw);
             all.push(Edit::SetWeight(standing[place], if weight == 0.0 { 0.0 } else { weight }));
         }
     }

@@ -119,7 +119,7 @@ fn small(draw: &mut impl Draw, bound: i32) -> Point3 {
 }
 
 /// The least k with k^power >= n.
-fn root(n: usize, power: u32) -> i32 {
+pub(super) fn root(n: usize, power: u32) -> i32 {
     (1..).find(|&k: &usize| k.saturating_pow(power) >= n).unwrap_or(1) as i32
 }
 

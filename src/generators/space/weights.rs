@@ -1,8 +1,8 @@
 //! Families of weights for points of space.
 
-use super::families::{SpaceFamily, space_points};
+use super::families::{SpaceFamily, root, space_points};
 use crate::generators::draw::{Draw, two_to};
-use crate::model::WeightedPoint;
+use crate::model::{Point3, WeightedPoint};
 
 /// A way of being nasty for weights. h, a power of two, is about the spacing of the points (1 for small sets of small integers).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, arbitrary::Arbitrary)]
@@ -11,7 +11,7 @@ pub enum WeightFamily {
     Zero,
     /// Squares of radii below h / 2, radii of at most 26 bits.
     Radii,
-    /// Uniform in [0, 2 h^2): of uniform points some 10% are hidden.
+    /// Uniform in [0, 1.13 s^2), s the size of the box over the cube root of n: of uniform points 10% are hidden.
     Hidden,
     /// Integers of -2..=2, times h^2: exact ties of power on grids.
     Integers,
@@ -54,29 +54,29 @@ pub fn weighted_points(
             }
         }
     }
-    let size = power_above(places.iter().fold(0.0, |m: f64, p| m.max(p.abs().max_element())));
-    let h = spacing(size, places.len());
+    let scale = Scale::of(places.iter().copied());
     places
         .into_iter()
         .map(|at| {
             let weight = match weights {
                 WeightFamily::Lifted => at.length_squared(),
-                _ => weight(weights, h, size, draw),
+                _ => weight(weights, scale, draw),
             };
             WeightedPoint { at, weight: if weight == 0.0 { 0.0 } else { weight } }
         })
         .collect()
 }
 
-/// One weight of a family but `Lifted` (there it is 0), for points of spacing h in a box of the given size.
-pub(super) fn weight(family: WeightFamily, h: f64, size: f64, draw: &mut impl Draw) -> f64 {
+/// One weight of a family but `Lifted` (there it is 0), for points of a given scale.
+pub(super) fn weight(family: WeightFamily, scale: Scale, draw: &mut impl Draw) -> f64 {
+    let Scale { size, h, s } = scale;
     match family {
         WeightFamily::Zero | WeightFamily::Lifted => 0.0,
         WeightFamily::Radii => {
             let radius = h * f64::from(draw.below(1 << 25)) * two_to(-26);
             radius * radius
         }
-        WeightFamily::Hidden => 2.0 * h * h * draw.unit(),
+        WeightFamily::Hidden => 1.13 * s * s * draw.unit(),
         WeightFamily::Integers | WeightFamily::SamePlaces => h * h * f64::from(draw.integer(-2, 2)),
         WeightFamily::Negative if draw.below(4) == 0 => 0.0,
         WeightFamily::Negative => -4.0 * h * h * draw.unit(),
@@ -84,14 +84,24 @@ pub(super) fn weight(family: WeightFamily, h: f64, size: f64, draw: &mut impl Dr
     }
 }
 
-/// The least power of two above x; 1 for 0.
-pub(super) fn power_above(x: f64) -> f64 {
-    if x == 0.0 { 1.0 } else { two_to((x.to_bits() >> 52 & 0x7ff) as i32 - 1022) }
+/// How large a set is and how far apart its points are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Scale {
+    /// The least power of two above every coordinate; 1 where all are 0.
+    size: f64,
+    /// The spacing as a power of two: the size over about the cube root of the number of points.
+    h: f64,
+    /// The spacing: the size over the least integer that is no less than that root.
+    s: f64,
 }
 
-/// The spacing of n points in a box of a given size, as a power of two: the size over about the cube root of n.
-pub(super) fn spacing(size: f64, n: usize) -> f64 {
-    size * two_to(-(((n.max(1)).ilog2() as i32 + 1) / 3))
+impl Scale {
+    pub(super) fn of(places: impl ExactSizeIterator<Item = Point3>) -> Self {
+        let n = places.len().max(1);
+        let largest = places.fold(0.0, |m: f64, p| m.max(p.abs().max_element()));
+        let size = if largest == 0.0 { 1.0 } else { two_to((largest.to_bits() >> 52 & 0x7ff) as i32 - 1022) };
+        Scale { size, h: size * two_to(-((n.ilog2() as i32 + 1) / 3)), s: size / f64::from(root(n, 3)) }
+    }
 }
 
 #[cfg(test)]
@@ -122,8 +132,10 @@ mod tests {
     }
 
     #[test]
-    fn powers_and_spacings() {
-        assert_eq!([0.0, 0.7, 1.0, 5.0, 8.0].map(power_above), [1.0, 1.0, 2.0, 8.0, 16.0]);
-        assert_eq!([1, 2, 7, 8, 64, 1 << 20].map(|n| spacing(1.0, n)), [1.0, 1.0, 0.5, 0.5, 0.25, two_to(-7)]);
+    fn scales() {
+        let scale = |n: usize, x: f64| Scale::of(vec![Point3::new(0.5, -x, 0.0); n].into_iter());
+        assert_eq!([0.7, 1.0, 5.0, 8.0].map(|x| scale(1, x).size), [1.0, 2.0, 8.0, 16.0]);
+        assert_eq!([0, 1, 2, 7, 8, 64, 1 << 15].map(|n| scale(n, 0.9).h), [1.0, 1.0, 1.0, 0.5, 0.5, 0.25, two_to(-5)]);
+        assert_eq!([1, 8, 9, 28].map(|n| scale(n, 0.9).s), [1.0, 0.5, 1.0 / 3.0, 0.25]);
     }
 }
