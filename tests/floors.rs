@@ -101,7 +101,7 @@ const WORDS: &[Words] = &[
         words: &["f32"],
         calls: false,
         except_folders: &[],
-        except_files: &[("io/vtu.rs", "Float32 arrays of foreign meshes")],
+        except_files: &[("io/scalar.rs", "single precision in foreign files")],
         reason: "coordinates are doubles",
     },
     Words {

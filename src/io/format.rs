@@ -1,6 +1,8 @@
 //! Formats by the extension of a file's name, and what each of them can hold.
 
-use super::{ForeignMesh, Input, ReadError, TriangleFiles, write};
+use super::triangle::node_is_spatial;
+use super::{Column, ForeignMesh, ForeignMesh3, Input, Input3, ReadError, TetgenFiles, TriangleFiles, write};
+use super::{parse_csv, parse_node3, parse_npy, parse_off3, parse_ply, parse_tetgen, parse_xyz};
 use super::{parse_geojson, parse_msh, parse_node, parse_node_ele, parse_off, parse_poly, parse_vtu, parse_wkt};
 use crate::model::{Mesh2, Pslg};
 use std::path::Path;
@@ -28,12 +30,26 @@ pub enum Format {
     Msh,
     /// Gmsh, written as 2.2.
     Msh2,
+    /// TetGen's triangles in space.
+    Face,
+    /// Points of space, white space between.
+    Xyz,
+    /// Points of space, with commas, semicolons or tabs.
+    Csv,
+    /// NumPy arrays of points.
+    Npy,
+    /// Stanford polygons, of which the vertices are read.
+    Ply,
+    /// Medit, text.
+    Medit,
+    /// Legacy VTK.
+    Vtk,
     /// A picture.
     Svg,
 }
 
 /// Every format with its extensions, the usual one first.
-const EXTENSIONS: [(Format, &[&str]); 11] = [
+const EXTENSIONS: [(Format, &[&str]); 18] = [
     (Format::Poly, &["poly"]),
     (Format::Node, &["node"]),
     (Format::Ele, &["ele"]),
@@ -44,6 +60,13 @@ const EXTENSIONS: [(Format, &[&str]); 11] = [
     (Format::Vtu, &["vtu"]),
     (Format::Msh, &["msh", "msh4"]),
     (Format::Msh2, &["msh2"]),
+    (Format::Face, &["face"]),
+    (Format::Xyz, &["xyz"]),
+    (Format::Csv, &["csv", "tsv"]),
+    (Format::Npy, &["npy"]),
+    (Format::Ply, &["ply"]),
+    (Format::Medit, &["mesh"]),
+    (Format::Vtk, &["vtk"]),
     (Format::Svg, &["svg"]),
 ];
 
@@ -64,7 +87,12 @@ impl Format {
         matches!(self, Format::Poly | Format::Node | Format::Wkt | Format::GeoJson)
     }
 
-    /// Whether meshes are read from it. `.node`, `.ele`, `.poly` and `.edge` name a mesh together.
+    /// Whether points of space are read from it.
+    pub fn reads_points3(self) -> bool {
+        matches!(self, Format::Node | Format::Xyz | Format::Off | Format::Ply | Format::Csv | Format::Npy)
+    }
+
+    /// Whether planar meshes are read from it. `.node`, `.ele`, `.poly` and `.edge` name a mesh together.
     pub fn reads_mesh(self) -> bool {
         matches!(
             self,
@@ -77,6 +105,11 @@ impl Format {
                 | Format::Msh
                 | Format::Msh2
         )
+    }
+
+    /// Whether meshes of space are read from it. `.node`, `.ele`, `.face` and `.edge` name a mesh together.
+    pub fn reads_mesh3(self) -> bool {
+        matches!(self, Format::Node | Format::Ele | Format::Face | Format::Edge)
     }
 
     /// The files that a mesh in this format consists of, by format; empty if the format holds no mesh.
@@ -92,7 +125,7 @@ impl Format {
             Format::Msh => &[Format::Msh],
             Format::Msh2 => &[Format::Msh2],
             Format::Svg => &[Format::Svg],
-            Format::Wkt | Format::GeoJson => &[],
+            _ => &[],
         }
     }
 }
@@ -109,7 +142,35 @@ pub fn write_mesh(mesh: &Mesh2, format: Format, domain: Option<&Pslg>) -> Option
         Format::Msh => write::msh(mesh, write::MshVersion::V41),
         Format::Msh2 => write::msh(mesh, write::MshVersion::V22),
         Format::Svg => write::svg(mesh),
-        Format::Wkt | Format::GeoJson => return None,
+        _ => return None,
+    })
+}
+
+/// The dimension of the points of a file for `triangulate`: by the format, and of `.node` by its header.
+///
+/// Formats of graphs hold points of the plane; `.xyz`, `.off`, `.ply`, `.csv` and `.npy` hold points of space, whatever their z. A damaged `.node` file is planar,
+/// and its reader will tell the fault. Result: nothing if the format holds no points.
+pub fn point_dimension(format: Format, bytes: &[u8]) -> Option<u8> {
+    match format {
+        Format::Node => Some(if node_is_spatial(bytes) { 3 } else { 2 }),
+        _ if format.reads_pslg() => Some(2),
+        _ if format.reads_points3() => Some(3),
+        _ => None,
+    }
+}
+
+/// Reads points of space; `column` says where their weights stand, if they have any.
+///
+/// Result: nothing if the format holds no points of space.
+pub fn read_points3(format: Format, bytes: &[u8], column: Option<&Column>) -> Option<Result<Input3, ReadError>> {
+    Some(match format {
+        Format::Node => parse_node3(bytes, column),
+        Format::Xyz => parse_xyz(bytes, column),
+        Format::Off => parse_off3(bytes, column),
+        Format::Ply => parse_ply(bytes, column),
+        Format::Csv => parse_csv(bytes, column),
+        Format::Npy => parse_npy(bytes, column),
+        _ => return None,
     })
 }
 
@@ -167,4 +228,70 @@ pub fn read_mesh(
         Format::Msh | Format::Msh2 => parse_msh(bytes),
         _ => return None,
     })
+}
+
+/// A mesh of the plane or of space.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AnyMesh {
+    /// Triangles in the plane.
+    Plane(ForeignMesh),
+    /// Tetrahedra, or simplices of lower dimension in space.
+    Space(ForeignMesh3),
+}
+
+/// Reads a mesh of space.
+///
+/// `column` names the weights: a column of `.node`, or an array of the points elsewhere, where an array `weight` is taken without being asked for. `companion` as for
+/// `read_pslg`: the other files of a mesh of TetGen. Result: nothing if the format holds no such mesh.
+pub fn read_mesh3(
+    format: Format,
+    bytes: &[u8],
+    column: Option<&Column>,
+    mut companion: impl FnMut(Format) -> Option<Vec<u8>>,
+) -> Option<Result<ForeignMesh3, ReadError>> {
+    Some(match format {
+        Format::Node | Format::Ele | Format::Face | Format::Edge => {
+            let mut part = |f: Format| {
+                if f == format { Some(bytes.to_vec()) } else { companion(f) }
+            };
+            let [node, ele, face, edge] = [Format::Node, Format::Ele, Format::Face, Format::Edge].map(&mut part);
+            let missing = |part: &'static str| {
+                Err(ReadError {
+                    part,
+                    problem: "the file is missing".into(),
+                    fix: "a mesh of TetGen is a .node and an .ele file of the same name (.face or .edge if it has no tetrahedra)".into(),
+                    ..ReadError::default()
+                })
+            };
+            match node {
+                None => missing(".node"),
+                Some(_) if ele.is_none() && face.is_none() && edge.is_none() => missing(".ele"),
+                Some(node) => {
+                    let files =
+                        TetgenFiles { node: &node, ele: ele.as_deref(), face: face.as_deref(), edge: edge.as_deref() };
+                    parse_tetgen(files, column)
+                }
+            }
+        }
+        _ => return None,
+    })
+}
+
+/// Reads a mesh of either dimension, which the file tells: `.node` by its header; `.off` is planar; `.mesh` and `.vtk` are of space; `.msh` and `.vtu` are of
+/// space if they hold a tetrahedron, or if `column` is given, and planar otherwise. Arguments as for `read_mesh3`.
+pub fn read_any_mesh(
+    format: Format,
+    bytes: &[u8],
+    column: Option<&Column>,
+    mut companion: impl FnMut(Format) -> Option<Vec<u8>>,
+) -> Option<Result<AnyMesh, ReadError>> {
+    let spatial = match format {
+        Format::Node => node_is_spatial(bytes),
+        Format::Ele | Format::Edge | Format::Face => companion(Format::Node).is_some_and(|node| node_is_spatial(&node)),
+        _ => !format.reads_mesh(),
+    };
+    if spatial {
+        return read_mesh3(format, bytes, column, companion).map(|read| read.map(AnyMesh::Space));
+    }
+    read_mesh(format, bytes, companion).map(|read| read.map(AnyMesh::Plane))
 }

@@ -10,13 +10,17 @@ mod cursor;
 mod error;
 mod flat;
 mod foreign;
+mod foreign3;
 mod format;
 mod geojson;
 mod input;
 mod msh;
 mod number;
 mod off;
+mod points;
 mod rows;
+mod scalar;
+mod tetgen;
 mod triangle;
 mod vtu;
 mod wkt;
@@ -28,11 +32,16 @@ mod tests;
 
 pub use error::ReadError;
 pub use foreign::{ForeignEdge, ForeignMesh, MeshLines};
-pub use format::{Format, read_mesh, read_pslg, write_mesh};
+pub use foreign3::{ForeignMesh3, ForeignTriangle, MeshLines3};
+pub use format::{
+    AnyMesh, Format, point_dimension, read_any_mesh, read_mesh, read_mesh3, read_points3, read_pslg, write_mesh,
+};
 pub use geojson::parse_geojson;
 pub use input::{Input, Note, NoteKind};
 pub use msh::parse_msh;
 pub use off::parse_off;
+pub use points::{Column, ColumnName, Input3, parse_csv, parse_node3, parse_npy, parse_off3, parse_ply, parse_xyz};
+pub use tetgen::{TetgenFiles, parse_tetgen};
 pub use triangle::{TriangleFiles, parse_node, parse_node_ele, parse_poly, poly_wants_node};
 pub use vtu::parse_vtu;
 pub use wkt::parse_wkt;

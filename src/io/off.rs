@@ -14,27 +14,7 @@ use crate::model::{Point2, VertexId};
 /// Errors: the first fault; faces that are no triangles and vertices off one plane z = constant are faults.
 pub fn parse_off(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
     let mut rows = Rows::new(".off", bytes)?;
-    let mut head = rows.expect(Element::The("header"))?;
-    let word = head.word("the word OFF")?;
-    if word != "OFF" {
-        return Err(head.fault(
-            format!("the file starts with `{}`", shown(word)),
-            "it must start with the word OFF; its variants are not read",
-        ));
-    }
-    if head.remainder() == "BINARY" {
-        return Err(head.fault("the encoding is BINARY", "write the file as text"));
-    }
-    if !head.has_more() {
-        head = rows.expect(Element::The("counts"))?;
-    }
-    // `0 0 0` and `3 0 0 0`, each with a line end.
-    let points = head.count("the number of vertices", 6, &rows)?;
-    let faces = head.count("the number of faces", 8, &rows)?;
-    if head.has_more() {
-        head.integer("the number of edges")?;
-    }
-    head.end()?;
+    let Header { points, faces, .. } = header(&mut rows)?;
     let mut mesh = ForeignMesh::default();
     let mut flat = Flat::default();
     mesh.points.reserve(points);
@@ -63,4 +43,38 @@ pub fn parse_off(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
     rows.end("face")?;
     mesh.notes.extend(flat.note());
     Ok(mesh)
+}
+
+/// The counts of an `.off` file, within its size, and their line.
+pub(super) struct Header {
+    pub(super) points: usize,
+    pub(super) faces: usize,
+    pub(super) line: u32,
+}
+
+/// Reads what precedes the vertices.
+pub(super) fn header(rows: &mut Rows) -> Result<Header, ReadError> {
+    let mut head = rows.expect(Element::The("header"))?;
+    let word = head.word("the word OFF")?;
+    if word != "OFF" {
+        return Err(head.fault(
+            format!("the file starts with `{}`", shown(word)),
+            "it must start with the word OFF; its variants are not read",
+        ));
+    }
+    if head.remainder() == "BINARY" {
+        return Err(head.fault("the encoding is BINARY", "write the file as text"));
+    }
+    if !head.has_more() {
+        head = rows.expect(Element::The("counts"))?;
+    }
+    // `0 0 0` and `3 0 0 0`, each with a line end.
+    let points = head.count("the number of vertices", 6, rows)?;
+    let faces = head.count("the number of faces", 8, rows)?;
+    if head.has_more() {
+        head.integer("the number of edges")?;
+    }
+    let line = head.line;
+    head.end()?;
+    Ok(Header { points, faces, line })
 }

@@ -16,37 +16,63 @@
 use super::foreign::{ForeignEdge, ForeignMesh};
 use super::rows::{Element, Row, Rows};
 use super::{Input, Note, NoteKind, ReadError};
-use crate::model::{Point2, Pslg, Region, Segment, VertexId};
+use crate::model::{Point2, Point3, Pslg, Region, Segment, VertexId};
 
 /// Attributes a vertex or triangle may carry at most; a header that asks for more is taken for damaged.
-const MOST_ATTRIBUTES: i64 = 1000;
+pub(super) const MOST_ATTRIBUTES: i64 = 1000;
 
 /// Vertices as they stand in a `.node` or `.poly` file.
 #[derive(Default)]
-struct Nodes {
-    points: Vec<Point2>,
-    markers: Vec<i32>,
-    attributes: Vec<f64>,
-    attributes_per_point: usize,
-    lines: Vec<u32>,
+pub(super) struct Nodes<P> {
+    pub(super) points: Vec<P>,
+    pub(super) markers: Vec<i32>,
+    pub(super) attributes: Vec<f64>,
+    pub(super) attributes_per_point: usize,
+    pub(super) lines: Vec<u32>,
     /// Line of the header.
-    header: u32,
+    pub(super) header: u32,
     /// Number of the first vertex: 0 or 1. Without vertices nothing tells, nor does it matter.
-    first: i64,
+    pub(super) first: i64,
 }
 
-impl Nodes {
-    fn read(rows: &mut Rows) -> Result<Nodes, ReadError> {
+/// A point of the plane or of space, as a row gives it.
+pub(super) trait Place: Sized + Default {
+    /// How many coordinates it has.
+    const DIMENSION: i64;
+    /// The fix for a file of another dimension.
+    const ONLY: &'static str;
+    /// Takes its coordinates from a row.
+    fn read(row: &mut Row) -> Result<Self, ReadError>;
+}
+
+impl Place for Point2 {
+    const DIMENSION: i64 = 2;
+    const ONLY: &'static str = "only planar files (dimension 2) are read here";
+    fn read(row: &mut Row) -> Result<Point2, ReadError> {
+        point(row)
+    }
+}
+
+impl Place for Point3 {
+    const DIMENSION: i64 = 3;
+    const ONLY: &'static str = "only files of space (dimension 3) are read here";
+    fn read(row: &mut Row) -> Result<Point3, ReadError> {
+        Ok(Point3::new(row.float("x")?, row.float("y")?, row.float("z")?))
+    }
+}
+
+impl<P: Place> Nodes<P> {
+    fn read(rows: &mut Rows) -> Result<Nodes<P>, ReadError> {
         let mut head = rows.expect(Element::The("header of the vertices"))?;
         let line = head.line;
         // `1 0 0` and a line end.
         let count = head.count("the number of vertices", 6, rows)?;
-        if head.has_more() {
+        // A planar file may leave it out.
+        if head.has_more() || P::DIMENSION != 2 {
             let mut probe = head;
             let dimension = probe.integer("the dimension")?;
-            if dimension != 2 {
-                return Err(head
-                    .fault(format!("the dimension is {dimension}"), "only planar files (dimension 2) are read here"));
+            if dimension != P::DIMENSION {
+                return Err(head.fault(format!("the dimension is {dimension}"), P::ONLY));
             }
             head = probe;
         }
@@ -73,7 +99,7 @@ impl Nodes {
             let due = k + self.first;
             row.ranged("the number of the vertex", due, due)?;
         }
-        self.points.push(point(row)?);
+        self.points.push(P::read(row)?);
         for _ in 0..self.attributes_per_point {
             self.attributes.push(row.float("an attribute")?);
         }
@@ -85,7 +111,7 @@ impl Nodes {
     }
 
     /// The vertex that the next field of a row names.
-    fn id(&self, row: &mut Row, name: &str) -> Result<VertexId, ReadError> {
+    pub(super) fn id(&self, row: &mut Row, name: &str) -> Result<VertexId, ReadError> {
         let count = self.points.len() as i64;
         if count == 0 {
             return Err(row.fault(format!("{name} refers to a vertex, but there are none"), ""));
@@ -104,6 +130,16 @@ fn point(row: &mut Row) -> Result<Point2, ReadError> {
 pub fn poly_wants_node(poly: &[u8]) -> bool {
     let first = |rows: &mut Rows| rows.next(Element::The("header")).and_then(|mut row| row.integer("count").ok());
     Rows::new(".poly", poly).is_ok_and(|mut rows| first(&mut rows) == Some(0))
+}
+
+/// Whether a `.node` file holds points of space, by the dimension of its header. False if the file is too damaged to tell.
+pub(super) fn node_is_spatial(node: &[u8]) -> bool {
+    let dimension = |rows: &mut Rows| {
+        let mut head = rows.next(Element::The("header"))?;
+        head.field();
+        head.integer("the dimension").ok()
+    };
+    Rows::new(".node", node).is_ok_and(|mut rows| dimension(&mut rows) == Some(Point3::DIMENSION))
 }
 
 /// Reads a `.poly` file, with its `.node` file where its own vertex count is 0.
@@ -144,7 +180,7 @@ pub fn parse_poly(poly: &[u8], node: Option<&[u8]>) -> Result<Input, ReadError> 
     Ok(input)
 }
 
-fn segments(rows: &mut Rows, nodes: &Nodes, input: &mut Input) -> Result<(), ReadError> {
+fn segments(rows: &mut Rows, nodes: &Nodes<Point2>, input: &mut Input) -> Result<(), ReadError> {
     let mut head = rows.expect(Element::The("header of the segments"))?;
     let count = head.count("the number of segments", 6, rows)?;
     let marked = head.has_more() && head.ranged("the number of boundary markers", 0, 1)? == 1;
@@ -208,7 +244,8 @@ fn regions(rows: &mut Rows, input: &mut Input) -> Result<(), ReadError> {
     Ok(())
 }
 
-fn read_node(node: &[u8]) -> Result<Nodes, ReadError> {
+/// Reads a `.node` file; its dimension must be that of the points.
+pub(super) fn read_node<P: Place>(node: &[u8]) -> Result<Nodes<P>, ReadError> {
     let mut rows = Rows::new(".node", node)?;
     let nodes = Nodes::read(&mut rows)?;
     rows.end("vertex")?;
@@ -219,7 +256,7 @@ fn read_node(node: &[u8]) -> Result<Nodes, ReadError> {
 ///
 /// Errors: its first fault.
 pub fn parse_node(node: &[u8]) -> Result<Input, ReadError> {
-    let nodes = read_node(node)?;
+    let nodes = read_node::<Point2>(node)?;
     let mut input = Input::default();
     input.pslg.points = nodes.points;
     input.pslg.point_markers = nodes.markers;
@@ -262,7 +299,7 @@ pub fn parse_node_ele(files: TriangleFiles) -> Result<ForeignMesh, ReadError> {
     Ok(mesh)
 }
 
-fn triangles(ele: &[u8], nodes: &Nodes, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
+fn triangles(ele: &[u8], nodes: &Nodes<Point2>, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
     let mut rows = Rows::new(".ele", ele)?;
     let mut head = rows.expect(Element::The("header of the triangles"))?;
     // `1 1 2 3` and a line end.
@@ -298,9 +335,9 @@ fn triangles(ele: &[u8], nodes: &Nodes, mesh: &mut ForeignMesh) -> Result<(), Re
 }
 
 /// The segments of the `.poly` file that accompanies a mesh; its holes and regions are read for their faults only.
-fn subsegments(poly: &[u8], nodes: &Nodes, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
+fn subsegments(poly: &[u8], nodes: &Nodes<Point2>, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
     let mut rows = Rows::new(".poly", poly)?;
-    Nodes::read(&mut rows)?;
+    Nodes::<Point2>::read(&mut rows)?;
     let mut input = Input::default();
     segments(&mut rows, nodes, &mut input)?;
     holes(&mut rows, &mut input)?;
@@ -311,7 +348,7 @@ fn subsegments(poly: &[u8], nodes: &Nodes, mesh: &mut ForeignMesh) -> Result<(),
     Ok(())
 }
 
-fn edges(edge: &[u8], nodes: &Nodes, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
+fn edges(edge: &[u8], nodes: &Nodes<Point2>, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
     let mut rows = Rows::new(".edge", edge)?;
     let mut head = rows.expect(Element::The("header of the edges"))?;
     let count = head.count("the number of edges", 6, &rows)?;

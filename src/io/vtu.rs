@@ -6,6 +6,7 @@
 use super::flat::{FIX, Flat};
 use super::foreign::{ForeignEdge, ForeignMesh};
 use super::rows::{MOST_ELEMENTS, clipped, text};
+use super::scalar::{Scalar, index, whole};
 use super::xml::{Tag, TagKind, Tags};
 use super::{ReadError, error::shown, number};
 use crate::model::{Point2, VertexId};
@@ -173,38 +174,26 @@ impl<'a> File<'a> {
         let length = usize::try_from(whole(head, self.big_endian)).map_err(|_| truncated())?;
         let data = data.get(..length).ok_or_else(truncated)?;
         let kind = tag.get("type").unwrap_or("");
-        let size = match kind {
-            "Int8" | "UInt8" => 1,
-            "Int16" | "UInt16" => 2,
-            "Int32" | "UInt32" | "Float32" => 4,
-            "Int64" | "UInt64" | "Float64" => 8,
+        let scalar = match kind {
+            "Int8" => Scalar::I8,
+            "UInt8" => Scalar::U8,
+            "Int16" => Scalar::I16,
+            "UInt16" => Scalar::U16,
+            "Int32" => Scalar::I32,
+            "UInt32" => Scalar::U32,
+            "Int64" => Scalar::I64,
+            "UInt64" => Scalar::U64,
+            "Float32" => Scalar::F32,
+            "Float64" => Scalar::F64,
             other => return Err(tag.fault(format!("the type is {}", shown(other)), "")),
         };
-        let number = |item: &[u8]| {
-            let bits = whole(item, self.big_endian);
-            match kind {
-                // The casts keep the bits that a value of this size has.
-                "Float64" => f64::from_bits(bits),
-                "Float32" => f64::from(f32::from_bits(bits as u32)),
-                "Int8" => f64::from(bits as i8),
-                "Int16" => f64::from(bits as i16),
-                "Int32" => f64::from(bits as i32),
-                "Int64" => bits as i64 as f64,
-                _ => bits as f64,
-            }
-        };
-        let values: Vec<Value> = data.chunks_exact(size).map(|item| (number(item) + 0.0, 0)).collect();
+        let items = data.chunks_exact(scalar.size());
+        let values: Vec<Value> = items.map(|item| (scalar.value(item, self.big_endian), 0)).collect();
         match values.iter().position(|(x, _)| !x.is_finite()) {
             Some(i) => Err(tag.fault(format!("number {} is not finite", i + 1), "")),
             None => Ok(values),
         }
     }
-}
-
-/// An unsigned integer of up to 8 bytes.
-fn whole(bytes: &[u8], big_endian: bool) -> u64 {
-    let push = |n: u64, &b: &u8| n << 8 | u64::from(b);
-    if big_endian { bytes.iter().fold(0, push) } else { bytes.iter().rev().fold(0, push) }
 }
 
 fn appended(tail: &[u8]) -> Result<Option<(&'static str, &[u8])>, ReadError> {
@@ -364,11 +353,4 @@ fn cells(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
         from = end;
     }
     Ok(())
-}
-
-/// A float as an index below a bound.
-fn index(x: f64, bound: usize) -> Option<usize> {
-    // The cast saturates; a fraction or a negative number does not survive it.
-    let i = x as usize;
-    ((i as f64).to_bits() == x.to_bits() && i < bound).then_some(i)
 }

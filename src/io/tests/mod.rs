@@ -3,6 +3,7 @@
 mod geometry;
 mod meshes;
 mod picture;
+mod points;
 mod triangle;
 
 use crate::io::ReadError;
