@@ -119,12 +119,12 @@ fn poly_files() {
             (
                 "repeated point",
                 poly(&["0 0", "1 0", "1 1", "0 1", "1 1"], SIDES),
-                &["vertices 2 and 4", "(1, 1)", "line 4, 6"],
+                &["vertices 2 and 4", "(1, 1)", "lines 4, 6"],
             ),
             (
                 "crossing",
                 poly(SQUARE, &["1 2", "2 3", "3 4", "4 1", "1 3", "2 4"]),
-                &["cross", "(0.5, 0.5)", "line 11, 12"],
+                &["cross", "(0.5, 0.5)", "lines 11, 12"],
             ),
             ("open", poly(SQUARE, &["1 2", "2 3", "3 4"]), &["no region"]),
             ("1e-300", poly(&["0 0", "1e-300 0", "0 1e-300"], &["1 2", "2 3", "3 1"]), &["1e-300", "line 3", "2^-870"]),
@@ -164,7 +164,7 @@ fn node_files() {
             ("large count", node("1000000", three), &["line 1", "1000000", "only 32 bytes"]),
             ("count too large by one", node("4", three), &["vertex 4", "ends"]),
             ("wrong number", "3 2 0 0\n1 0 0\n7 1 0\n3 0 1\n".into(), &["line 3", "7"]),
-            ("repeated point", node("4", &["0 0", "1 0", "0 1", "1 0"]), &["vertices 1 and 3", "line 3, 5"]),
+            ("repeated point", node("4", &["0 0", "1 0", "0 1", "1 0"]), &["vertices 1 and 3", "lines 3, 5"]),
             ("1e-300", node("3", &["0 0", "1e-300 0", "0 1e-300"]), &["1e-300", "line 3"]),
             ("1e300", node("3", &["0 0", "1e300 0", "0 1e300"]), &["1e300", "line 3"]),
             ("no segments", node("3", three), &["no region", "--convex"]),
@@ -401,15 +401,15 @@ fn traces() {
         let replay = ["replay", "t", "--to", "100000", "-o", "out.off"];
         expect(&format!("trace {case}"), &[("t", content)], &replay, code, &[": "]);
     };
-    rejected("empty", b"", &["Truncated"]);
+    rejected("empty", b"", &["header: ", "Truncated"]);
     for part in [1, 10, binary.len() / 2, binary.len() - 1] {
         rejected(&format!("binary of {part} bytes"), &binary[..part], &["Truncated"]);
     }
     rejected("text cut", &text.as_bytes()[..text.len() / 2], &["Truncated", "line"]);
-    rejected("other file", b"4 2 0 0\n1 0 0\n", &["Format", "line 1"]);
+    rejected("other file", b"4 2 0 0\n1 0 0\n", &["header: ", "Format", "line 1"]);
     let with = |from: &str, to: &str| changed(&text, from, to).into_bytes();
     let vertex = "{\"vertex\":[1.0,0.0]";
-    rejected("NaN", &with(vertex, "{\"vertex\":[NaN,0.0]"), &["Format", "line 3"]);
+    rejected("NaN", &with(vertex, "{\"vertex\":[NaN,0.0]"), &["input: ", "Format", "line 3"]);
     rejected("1e400", &with(vertex, "{\"vertex\":[1e400,0.0]"), &["Format", "line 3"]);
     rejected("1e300", &with(vertex, "{\"vertex\":[1e300,0.0]"), &["rule"]);
     rejected("1e-300", &with(vertex, "{\"vertex\":[1e-300,0.0]"), &["rule"]);
@@ -419,7 +419,8 @@ fn traces() {
     rejected("negative index", &with(segment, "{\"segment\":[0,-1]"), &["Format", "line"]);
     rejected("zero length", &with(segment, "{\"segment\":[1,1]"), &["rule"]);
     rejected("crossing", &with(segment, "{\"segment\":[0,2]"), &["rule"]);
-    rejected("more", &[&binary[..], b"x"].concat(), &["Format", "more follows"]);
+    rejected("more", &[&binary[..], b"x"].concat(), &["end: ", "Format", "more follows"]);
+    rejected("start", &with("{\"triangle\":", "{\"triangel\":"), &["start: ", "Format"]);
 }
 
 /// What files cannot say and a library user can: every planted defect is found as what it is, with its place, and is refused or repaired.

@@ -48,7 +48,7 @@ const FLOORS: &[Floor] = &[
     ),
     (
         "attack",
-        Some(&["model", "arith", "trace", "domain", "triangulation", "io", "refine", "check", "generators"]),
+        Some(&["model", "arith", "trace", "domain", "triangulation", "io", "refine", "check", "audit", "generators"]),
         "tests the library below the command line",
     ),
     ("cli", None, "the wiring"),

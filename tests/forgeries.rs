@@ -6,33 +6,13 @@ use orthoball::arith::angle::{kappa, rho2_from_min_angle};
 use orthoball::check::{Options, Verdict, verify};
 use orthoball::domain::prepare;
 use orthoball::generators::{PslgFamily, SplitMix64, pslg};
-use orthoball::model::{
-    Choice, DeletionPolicy, DiskChoice, Fill, GcdrParameters, Lines, Point2, Pslg, QueueOrder, Segment, SmallAngles,
-    Triangle, VertexId,
-};
+use orthoball::model::{Choice, DiskChoice, Fill, GcdrParameters, Lines, Point2, Pslg, Segment, Triangle, VertexId};
 use orthoball::refine::{self, gcdr};
 use orthoball::trace::{Event, Record, Recorder, SkipReason, Why};
 
 fn parameters() -> GcdrParameters {
     let rho2 = rho2_from_min_angle(25.0).expect("an angle in range");
-    GcdrParameters {
-        rho2,
-        d1: 1.0,
-        d2: 1.0,
-        mu: 1.0,
-        choice_a: DiskChoice::Offcenter,
-        choice_b: Choice::Center,
-        choice_c: Choice::Center,
-        kappa: Some(kappa(rho2)),
-        extreme: None,
-        seed: None,
-        order: QueueOrder::ShortestEdge,
-        deletion: DeletionPolicy::Segment,
-        small_angles: SmallAngles::Shells,
-        max_area: None,
-        size_function: false,
-        max_splits: None,
-    }
+    GcdrParameters { choice_a: DiskChoice::Offcenter, kappa: Some(kappa(rho2)), ..GcdrParameters::chew(rho2) }
 }
 
 fn run(pslg: &Pslg, params: &GcdrParameters) -> Vec<Record> {
@@ -265,7 +245,7 @@ fn a_bound_that_is_no_positive_number_is_refused() {
         assert!(matches!(answer, Err(refine::RunError::Parameter { .. })), "area {wrong}");
         assert!(recorder.0.is_empty(), "area {wrong}");
     }
-    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+    for wrong in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY, f64::MIN_POSITIVE] {
         let params = GcdrParameters { size_function: true, ..parameters() };
         let mut size = |_| wrong;
         let mut options = refine::Options { size: Some(&mut size), ..refine::Options::default() };

@@ -69,3 +69,21 @@ fn a_triangulation_keeps_holes_and_concavities() {
         assert_eq!(rule(&recorder.0), None, "{fill:?}");
     }
 }
+
+/// A size function that asked for nothing at a place, by infinity or a huge number, ended the run as if it had returned no positive number.
+#[test]
+fn an_infinite_size_is_no_bound() {
+    let poly = "4 2\n1 0 0\n2 1 0\n3 0 1\n4 1 1\n4 0\n1 1 2\n2 2 4\n3 4 3\n4 3 1\n0\n";
+    let input = parse_poly(poly.as_bytes(), None).expect("a good file");
+    let counts = [1e300, f64::MAX, f64::INFINITY, 0.25].map(|h| {
+        let mut size = |_| h;
+        let mut options = refine::Options { size: Some(&mut size), ..refine::Options::default() };
+        let params = GcdrParameters { size_function: true, ..parameters() };
+        let mut recorder = Recorder::default();
+        let run = gcdr::run::<FastKernel>(&input.pslg, &params, &mut options, &mut recorder).expect("a run");
+        assert_eq!(rule(&recorder.0), None, "{h}");
+        run.mesh.triangles.len()
+    });
+    assert_eq!(counts[..3], [2; 3]);
+    assert!(counts[3] > 2);
+}

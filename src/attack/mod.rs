@@ -8,15 +8,21 @@
 //! - `CdtCase`: a triangulation under insertions, splits, deletions and rollbacks equals a fresh build and the definition.
 //! - `GcdrCase`: both kernels write the same trace, the strict checker accepts it, both forms of it read back.
 //! - `MutatedTraceCase`: of a true trace with one record changed, or with bytes changed, the strict checker accepts none.
+//! - `UserCase`: whatever a user's choices and sizes answer, the run refuses it by name or its trace is accepted.
+//! - `MutatedMeshCase`: the audit calls a changed mesh right exactly if it is.
 //! - `readers`: any bytes are read or refused; what was read, written, and read again is the same.
 
+mod audits;
 mod cdt;
 mod kernels;
 mod mutations;
 pub mod readers;
 mod refinement;
+mod users;
 
+pub use audits::MutatedMeshCase;
 pub use cdt::CdtCase;
 pub use kernels::KernelCase;
 pub use mutations::MutatedTraceCase;
 pub use refinement::GcdrCase;
+pub use users::UserCase;

@@ -288,7 +288,7 @@ fn triangles(list: &mut Vec<Triangle>, draw: &mut impl Draw) {
     }
 }
 
-fn place(p: &mut Point2, draw: &mut impl Draw) {
+pub(super) fn place(p: &mut Point2, draw: &mut impl Draw) {
     match draw.below(8) {
         0 => *p = -*p,
         1 => *p = Point2::new(p.y, p.x),
@@ -299,7 +299,7 @@ fn place(p: &mut Point2, draw: &mut impl Draw) {
     }
 }
 
-fn number(x: &mut f64, draw: &mut impl Draw) {
+pub(super) fn number(x: &mut f64, draw: &mut impl Draw) {
     *x = match draw.below(10) {
         0..=2 => x.next_up(),
         3..=5 => x.next_down(),

@@ -20,7 +20,8 @@ use super::figures::{Classes, Counts};
 use super::report::{Claim, ClaimReport, Verdict};
 use super::tree::Tree;
 use super::{Options, Subject};
-use crate::model::{Fill, Point2, Pslg, Segment, SegmentId};
+use crate::model::words::counted;
+use crate::model::{Fill, Point2, Pslg, Segment, SegmentId, VertexId};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
@@ -76,6 +77,8 @@ struct Search<'a> {
     ulp: f64,
     /// Mesh vertices joined to each by an edge: offsets and list.
     neighbors: (Vec<u32>, Vec<u32>),
+    /// Edges that the file names, the smaller end first, sorted.
+    named: Vec<[u32; 2]>,
     border: Vec<u32>,
     border_tree: Tree,
     report: ClaimReport,
@@ -87,6 +90,9 @@ impl<'a> Search<'a> {
     fn new(complex: &'a Complex<'a>, input: &'a Pslg, within: f64) -> Self {
         let largest = complex.vertices.iter().fold(0.0f64, |m, &v| m.max(complex.point(v).abs().max_element()));
         let ulp = largest.next_up() - largest;
+        let key = |e: &[VertexId; 2]| [e[0].0.min(e[1].0), e[0].0.max(e[1].0)];
+        let mut named: Vec<[u32; 2]> = complex.subject.edges.iter().map(key).collect();
+        named.sort_unstable();
         let border: Vec<u32> = complex.border().collect();
         let border_tree = Tree::new(border.len(), |i| complex.ends(border[i]).map(|v| complex.point(v)));
         Search {
@@ -95,6 +101,7 @@ impl<'a> Search<'a> {
             tolerance: within * ulp,
             ulp,
             neighbors: neighbors(complex),
+            named,
             border,
             border_tree,
             report: ClaimReport::new(Claim::Conforming),
@@ -120,9 +127,10 @@ impl<'a> Search<'a> {
             ("segments_outside", missing.len() as f64),
         ];
         let holds = format!(
-            "every segment is a chain of edges, off it by at most {:.3} ulp; {outside} vertices and {} segments lie outside",
+            "every segment is a chain of edges, off it by at most {:.3} ulp; outside lie {} and {}",
             self.deviation / self.ulp.max(f64::MIN_POSITIVE),
-            missing.len()
+            counted(outside, "vertex"),
+            counted(missing.len(), "segment")
         );
         Conformity { report: self.report.conclude(&holds), constraints: self.constraints }
     }
@@ -198,11 +206,20 @@ impl<'a> Search<'a> {
         inside
     }
 
-    /// A path of edges from a to b, ever farther along ab and near it; of several the one that keeps nearest first.
+    /// The chain from a to b: where vertices lie as near to a line as roundings reach there may be several, and the file's own word decides.
     fn chain(&self, a: u32, b: u32) -> Option<Vec<u32>> {
+        let named = |v: u32, w: u32| self.named.binary_search(&[v.min(w), v.max(w)]).is_ok();
+        if let Some(path) = self.path(a, b, named) {
+            return Some(path);
+        }
         if self.complex.edge(a, b).next().is_some() {
             return Some(vec![a, b]);
         }
+        self.path(a, b, |_, _| true)
+    }
+
+    /// A path of admitted edges from a to b, ever farther along ab and near it; of several the one that keeps nearest first.
+    fn path(&self, a: u32, b: u32, admitted: impl Fn(u32, u32) -> bool) -> Option<Vec<u32>> {
         let (p, q) = (self.complex.point(a), self.complex.point(b));
         let mut tried = BTreeSet::from([a]);
         let mut path = vec![a];
@@ -215,6 +232,7 @@ impl<'a> Search<'a> {
             let next = list[offsets[v as usize] as usize..offsets[v as usize + 1] as usize].iter().copied();
             let next = next.filter(|&w| {
                 !tried.contains(&w)
+                    && admitted(v, w)
                     && (w == b
                         || along(p, q, at(w), at(v)) == Ordering::Greater
                             && along(p, q, at(w), q) == Ordering::Less
@@ -312,7 +330,8 @@ impl<'a> Search<'a> {
         let faces = Counts::of(self.complex).holes() + cycles as i64;
         if faces > uncovered && self.report.verdict == Verdict::Holds {
             self.report.violated(subject, &[], &[], || {
-                format!("{faces} closed faces are left out, but only {uncovered} hole seeds ask for it")
+                let (left_out, asked) = (counted(faces, "closed face"), counted(uncovered, "hole seed"));
+                format!("the mesh leaves out {left_out}, and the input has {asked} outside of it")
             });
         }
     }

@@ -3,6 +3,7 @@
 use super::complex::Complex;
 use super::exact::is_skinny;
 use super::report::{Claim, ClaimReport, Verdict, Witness};
+use crate::model::words::counted;
 
 /// How many of the worst triangles are shown.
 const WORST: usize = 5;
@@ -162,11 +163,9 @@ pub(super) fn topology(complex: &Complex<'_>) -> ClaimReport {
     let unused = complex.subject.points.len() as i64 - c.vertices;
     let mut report = ClaimReport { verdict: Verdict::Told, ..ClaimReport::new(Claim::Topology) };
     report.message = format!(
-        "{} component{}, {} hole{}, Euler characteristic {}",
-        c.components,
-        if c.components == 1 { "" } else { "s" },
-        c.holes(),
-        if c.holes() == 1 { "" } else { "s" },
+        "{}, {}, Euler characteristic {}",
+        counted(c.components, "component"),
+        counted(c.holes(), "hole"),
         c.euler()
     );
     let figures = [

@@ -1,6 +1,7 @@
 //! What an audit says.
 
 use super::Subject;
+use crate::model::words::{counted, listed};
 use serde::Serialize;
 use std::fmt;
 
@@ -153,8 +154,7 @@ impl ClaimReport {
     /// Sets the message of a claim by whether it holds.
     pub(super) fn conclude(mut self, holds: &str) -> Self {
         self.message = match self.verdict {
-            Verdict::Violated if self.violations == 1 => "1 violation".into(),
-            Verdict::Violated => format!("{} violations", self.violations),
+            Verdict::Violated => counted(self.violations, "violation"),
             _ => holds.into(),
         };
         self
@@ -200,7 +200,7 @@ impl fmt::Display for Report {
             for w in &c.witnesses {
                 write!(f, "{:24}{}", "", w.message)?;
                 if !w.lines.is_empty() {
-                    write!(f, " (lines {:?})", w.lines)?;
+                    write!(f, " ({})", listed("line", &w.lines, 8))?;
                 }
                 writeln!(f)?;
             }

@@ -8,6 +8,7 @@ use super::condition::compare_lengths;
 use super::predicates::{in_conflict, orient};
 use super::sight::Search;
 use super::verdict::{Checked, Rule, broken, ensure};
+use crate::model::words::counted;
 use crate::model::{Fill, Point2, Region, Segment, VertexId};
 
 /// The input as the trace states it; places are scaled.
@@ -112,7 +113,10 @@ fn check_border(mesh: &Complex) -> Checked {
         ensure(walked <= total, Rule::Triangulation, || ("one closed border", "a border that does not close"))?;
     }
     ensure(walked == total && turns == 1, Rule::Triangulation, || {
-        ("one closed border that turns once", format!("{walked} of {total} edges in one piece, {turns} turns"))
+        (
+            "one closed border that turns once",
+            format!("{walked} of {} in one piece, {}", counted(total, "edge"), counted(turns, "turn")),
+        )
     })
 }
 

@@ -8,6 +8,7 @@ use super::predicates::{in_conflict, orient};
 use super::replay::{Replay, Rim, Waiting, birth};
 use super::split::Split;
 use super::verdict::{Checked, Rule, broken, ensure};
+use crate::model::words::counted;
 use crate::model::{Point2, Triangle};
 use crate::trace::SplitKind;
 
@@ -187,7 +188,7 @@ impl Replay {
     pub(super) fn check_filling(&self, w: Waiting) -> Checked {
         let filling = &self.filling[w.start..w.end];
         ensure(filling.len() + 2 == self.rim.len(), Rule::Star, || {
-            (format!("{} triangles", self.rim.len() - 2), format!("{}", filling.len()))
+            (counted(self.rim.len() - 2, "triangle"), format!("{}", filling.len()))
         })?;
         ensure(filling.windows(2).all(|p| p[0] < p[1]), Rule::Canonical, || {
             ("ascending order", format!("{filling:?}"))

@@ -5,6 +5,7 @@ use super::input::load_examined;
 use super::{Answer, Status, data};
 use crate::domain::Severity;
 use crate::model::Fill;
+use crate::model::words::counted;
 use serde_json::json;
 
 /// Lists all findings, errors first. Exit code 1 if there is an error among them.
@@ -21,7 +22,9 @@ pub fn run(args: &DoctorArgs) -> Answer {
         for entry in &loaded.entries {
             data(&entry.text)?;
         }
-        data(format_args!("{errors} errors, {repairs} repairs, {notes} notes"))?;
+        let [errors, repairs, notes] =
+            [(errors, "error"), (repairs, "repair"), (notes, "note")].map(|(n, noun)| counted(n, noun));
+        data(format_args!("{errors}, {repairs}, {notes}"))?;
     }
     Ok(if errors == 0 { Status::Well } else { Status::No })
 }

@@ -13,6 +13,7 @@ use super::{Answer, Failure, Status, data, talk};
 use crate::arith::ExactKernel;
 use crate::arith::{FastKernel, Kernel};
 use crate::domain::Severity;
+use crate::model::words::counted;
 use crate::model::{Fill, GcdrParameters, Pslg};
 use crate::refine::{self, Options, Run, RunError};
 use crate::trace::{Comparing, Discard, Format, Outcome, Reader, Sink, Writer, mesh_digest};
@@ -252,7 +253,8 @@ fn tell_findings(loaded: &Loaded) {
     repairs.take(5).for_each(|e| talk(&e.text));
     let (repairs, notes) = (loaded.count(Severity::Repair), loaded.count(Severity::Note));
     if repairs > 5 || notes > 0 {
-        talk(format_args!("input     {repairs} repairs, {notes} notes (`doctor` lists them)"));
+        let (repairs, notes) = (counted(repairs, "repair"), counted(notes, "note"));
+        talk(format_args!("input     {repairs}, {notes} (`doctor` lists them)"));
     }
 }
 
@@ -267,7 +269,7 @@ fn tell(run: &Run, quality: &Quality, digests: &[Option<String>; 2], seconds: f6
     match mirror {
         Some(Mirror { divergence: Some(d), .. }) => talk(format_args!("mirror    DIVERGED: {d}")),
         Some(Mirror { records, seconds, .. }) => {
-            talk(format_args!("mirror    identical: {records} records, exact kernel {seconds:.3} s"));
+            talk(format_args!("mirror    identical: {}, exact kernel {seconds:.3} s", counted(*records, "record")));
         }
         None => {}
     }

@@ -5,6 +5,7 @@ use super::files::{Staged, open};
 use super::outputs::{check_names, stage};
 use super::{Answer, Failure, Status, talk};
 use crate::check::{Checker, Options, Verdict};
+use crate::model::words::counted;
 use crate::model::{Mesh2, Pslg, VertexKind};
 use crate::trace::{Event, Reader, Record};
 
@@ -43,7 +44,11 @@ pub fn run(args: &ReplayArgs) -> Answer {
     stage(&args.output, &mesh, Some(&domain), &mut staged)?;
     staged.commit()?;
     let event = last.unwrap_or(args.to);
-    talk(format_args!("event {event}: {} vertices, {} triangles", mesh.points.len(), mesh.triangles.len()));
+    talk(format_args!(
+        "event {event}: {}, {}",
+        counted(mesh.points.len(), "vertex"),
+        counted(mesh.triangles.len(), "triangle")
+    ));
     Ok(Status::Well)
 }
 

@@ -1,5 +1,6 @@
 //! What is told about a mesh. Floating point numbers here are for people; they decide nothing.
 
+use crate::model::words::counted;
 use crate::model::{DiskChoice, GcdrParameters, Level, Mesh2, Point2};
 use crate::refine::{Run, Unmet};
 use crate::trace::{Cause, Outcome, SkipReason};
@@ -178,12 +179,17 @@ pub fn lines(run: &Run, quality: &Quality) -> Vec<String> {
     let reason = run.stop_reason.as_ref().map_or(String::new(), |r| format!(": {r}"));
     let mut lines = vec![
         format!("outcome   {}{reason}", outcome(run.outcome)),
-        format!("mesh      {} vertices, {} triangles, {} subsegments", c.vertices, c.triangles, run.mesh.edges.len()),
+        format!(
+            "mesh      {}, {}, {}",
+            counted(c.vertices, "vertex"),
+            counted(c.triangles, "triangle"),
+            counted(run.mesh.edges.len(), "subsegment")
+        ),
     ];
     if c.type_a + c.type_b + c.type_c > 0 {
         lines.push(format!(
-            "steps     {} free points, {} on segments ({} type B, {} type C), {} deleted",
-            c.type_a,
+            "steps     {}, {} on segments ({} type B, {} type C), {} deleted",
+            counted(c.type_a, "free point"),
             c.type_b + c.type_c,
             c.type_b,
             c.type_c,

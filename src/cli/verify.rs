@@ -6,6 +6,7 @@ use super::input::load;
 use super::{Answer, Failure, Status, data, talk};
 use crate::check::spacing::{Count, Kind, Row, Spacing, Violation};
 use crate::check::{Checker, Options, Verdict};
+use crate::model::words::counted;
 use crate::model::{Fill, Pslg, Segment};
 use crate::trace::{DecodeError, Header, Reader, Record};
 use serde_json::json;
@@ -53,7 +54,10 @@ pub fn run(args: &VerifyArgs) -> Answer {
                 _ => Ok(()),
             }),
             Err(DecodeError::Io(e)) => return Err(Failure::at(&args.trace, e)),
-            Err(e) => Err(undecodable(reader.events(), &e)),
+            Err(e) => {
+                let event = reader.part().map_or_else(|| format!("event {}", reader.events()), str::to_string);
+                Err(undecodable(event, &e))
+            }
         };
         if let Err(r) = judged {
             rejection = Some(r);
@@ -87,7 +91,7 @@ impl Judge {
             found: r.found.clone(),
         })?;
         match &mut self.spacing {
-            Some(spacing) => spacing.record(record).map_err(violation),
+            Some(spacing) => spacing.record(record).map_err(|v| violation(v, place(record))),
             None => Ok(()),
         }
     }
@@ -125,7 +129,7 @@ impl Judge {
         if let Some(spacing) = &mut self.spacing
             && let Err(v) = spacing.finish(self.checker.smallest_angle(), self.checker.edges())
         {
-            return reject(args, &violation(v), begun.elapsed().as_secs_f64());
+            return reject(args, &violation(v, Some("end")), begun.elapsed().as_secs_f64());
         }
         let spacing = self.spacing.as_ref().map(Spacing::report);
         let undecided: u64 = spacing.map_or(0, |r| r.rows.values().map(|c| c.undecided).sum());
@@ -156,7 +160,7 @@ impl Judge {
             }
             data(value)?;
         } else {
-            data(format_args!("accepted: {events} events"))?;
+            data(format_args!("accepted: {}", counted(events, "event")))?;
             for u in &unchecked {
                 data(format_args!("unchecked: {}: {}", u.rule, u.reason))?;
             }
@@ -200,21 +204,27 @@ fn difference(input: &Pslg, stated: &Pslg) -> Option<&'static str> {
     checks.into_iter().find(|(_, equal)| !equal).map(|(what, _)| what)
 }
 
-fn undecodable(events: u64, e: &DecodeError) -> Rejection {
+fn undecodable(event: String, e: &DecodeError) -> Rejection {
     let rule = match e {
         DecodeError::Truncated(_) => "Truncated",
         _ => "Format",
     };
-    Rejection {
-        event: format!("event {events}"),
-        rule: rule.into(),
-        expected: "a record in canonical form".into(),
-        found: e.to_string(),
+    Rejection { event, rule: rule.into(), expected: "a record in canonical form".into(), found: e.to_string() }
+}
+
+/// The part of a trace that a record belongs to, if it is no event.
+fn place(record: &Record) -> Option<&'static str> {
+    match record {
+        Record::Header(_) => Some("header"),
+        Record::Vertex { .. } | Record::Segment(_) | Record::Hole(_) | Record::Region(_) => Some("input"),
+        Record::Start { .. } | Record::Triangle(_) => Some("start"),
+        Record::Event(_) => None,
+        Record::End(_) => Some("end"),
     }
 }
 
-fn violation(v: Violation) -> Rejection {
-    let event = v.event.map_or("end".into(), |i| format!("event {i}"));
+fn violation(v: Violation, part: Option<&str>) -> Rejection {
+    let event = part.map_or_else(|| v.event.map_or("start".into(), |i| format!("event {i}")), str::to_string);
     Rejection { event, rule: v.row.to_string(), expected: v.expected, found: v.found }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! Ids in findings are positions in the input counted from 0, in the order of the file; lines of the file are counted from 1.
 
+use crate::model::words::listed;
 use crate::model::{Lines, Point2, Pslg, SegmentId, VertexId};
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use std::fmt;
@@ -245,7 +246,7 @@ impl Serialize for Finding {
     }
 }
 
-/// `error: crossing: segments 3 and 7 cross at (1.5, 2) (lines 12 and 16); fix: ...`
+/// `error: crossing: segments 3 and 7 cross at (1.5, 2) (lines 12, 16); fix: ...`
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let severity = match self.severity() {
@@ -254,12 +255,8 @@ impl fmt::Display for Finding {
             Severity::Note => "note",
         };
         write!(f, "{severity}: {}", self.message)?;
-        if let [first, rest @ ..] = &self.lines[..] {
-            write!(f, " (line {first}")?;
-            for line in rest.iter().take(7) {
-                write!(f, ", {line}")?;
-            }
-            write!(f, "{})", if rest.len() > 7 { ", ..." } else { "" })?;
+        if !self.lines.is_empty() {
+            write!(f, " ({})", listed("line", &self.lines, 8))?;
         }
         write!(f, "; fix: {}", self.fix())
     }

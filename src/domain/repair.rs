@@ -5,6 +5,7 @@
 
 use super::finding::{Element, Finding, Findings, Kind};
 use super::sweep::Span;
+use crate::model::words::counted;
 use crate::model::{Lines, Pslg, Segment, SegmentId, VertexId};
 
 /// The repaired segments, and of each the input segment it is a part of (the first, if several).
@@ -101,10 +102,10 @@ fn on_segment(pslg: &Pslg, lines: &Lines, segment: u32, cuts: &[(u32, u32)]) -> 
     let names = match &vertices[..] {
         [v] => format!("vertex {v} lies"),
         [v, w] => format!("vertices {v} and {w} lie"),
-        [v, .., w] => format!("{} vertices, from {v} to {w}, lie", vertices.len()),
+        [v, .., w] => format!("{}, from {v} to {w}, lie", counted(vertices.len(), "vertex")),
         [] => String::new(),
     };
-    let message = format!("{names} on segment {segment}, which becomes {} parts", vertices.len() + 1);
+    let message = format!("{names} on segment {segment}, which becomes {}", counted(vertices.len() + 1, "part"));
     let mut elements = vec![Element::Segment(SegmentId(segment))];
     elements.extend(vertices.iter().map(|&v| Element::Vertex(VertexId(v))));
     let at = vertices.iter().map(|&v| pslg.points[v as usize]).collect();

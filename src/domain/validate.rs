@@ -6,6 +6,7 @@ use super::normalise::{Scale, normalise_all, seed_in_range};
 use super::repair::repair;
 use super::sweep::{Span, sweep};
 use crate::arith::{Kernel, perturb::lexicographic};
+use crate::model::words::counted;
 use crate::model::{Fill, Lines, Point2, Pslg, Segment, SegmentId, VertexId};
 
 /// An input made ready, with all that was found in it.
@@ -134,7 +135,8 @@ fn spans(pslg: &Pslg, lines: &Lines, vertices: &Vertices, findings: &mut Finding
         let [u, v] = segment.ends;
         if let Some(w) = segment.ends.into_iter().find(|w| w.index() >= pslg.points.len()) {
             findings.add(Kind::BadIndex, || {
-                let message = format!("{e} refers to vertex {}, but there are {} vertices", w.0, pslg.points.len());
+                let count = counted(pslg.points.len(), "vertex");
+                let message = format!("{e} refers to vertex {}, but the input has {count}", w.0);
                 Finding::new(Kind::BadIndex, vec![e], Vec::new(), lines, message)
             });
             continue;

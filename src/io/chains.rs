@@ -7,6 +7,7 @@
 
 use super::rows::{MOST_ELEMENTS, text};
 use super::{Input, Note, NoteKind, ReadError};
+use crate::model::words::counted;
 use crate::model::{Fill, Point2, Segment, VertexId};
 use std::collections::BTreeMap;
 
@@ -57,7 +58,7 @@ impl Tally {
 /// The text of a file of nested lists. A point takes at least 4 bytes, so that the largest file allowed has fewer than 2^31 points.
 pub(super) fn text_of_chains<'a>(part: &'static str, bytes: &'a [u8]) -> Result<&'a str, ReadError> {
     if bytes.len() as u64 > 4 * MOST_ELEMENTS {
-        let problem = format!("the file has {} bytes", bytes.len());
+        let problem = format!("the file has {}", counted(bytes.len(), "byte"));
         return Err(ReadError {
             part,
             problem,

@@ -6,6 +6,7 @@
 use super::ReadError;
 use super::error::shown;
 use super::number;
+use crate::model::words::counted;
 
 /// No format here holds more elements of one kind: ids are 32 bits wide and some are reserved.
 pub(super) const MOST_ELEMENTS: u64 = i32::MAX as u64;
@@ -229,7 +230,7 @@ impl<'a> Row<'a> {
         if count.saturating_mul(bytes as u64) > rows.size as u64 + 1 {
             return Err(self.fault_at(
                 field,
-                format!("{name} is {n}, but the file has only {} bytes", rows.size),
+                format!("{name} is {n}, but the file has only {}", counted(rows.size, "byte")),
                 "correct the count, or the file is truncated",
             ));
         }

@@ -1,4 +1,4 @@
-//! Floor 0: plain data. No arithmetic and no decision lives here.
+//! Floor 0: plain data. No arithmetic and no decision lives here. (`words` turns numbers into sentences, for the messages of all floors.)
 
 mod ids;
 mod mesh;
@@ -8,6 +8,7 @@ mod point;
 mod pslg;
 mod sign;
 mod simplex;
+pub mod words;
 
 pub use ids::{SegmentId, VertexId};
 pub use mesh::{Mesh2, MeshEdge, VertexKind};

@@ -9,7 +9,7 @@ use crate::triangulation::cdt2::{BuildError, CarveError};
 pub struct Options<'a> {
     /// Chooses points where a choice is `user`.
     pub chooser: Option<&'a mut dyn Chooser>,
-    /// Largest circumradius at a place, input units; a positive number.
+    /// Largest circumradius at a place, input units; infinite for no bound, at least 2^-399 of the largest coordinate.
     pub size: Option<&'a mut dyn FnMut(Point2) -> f64>,
     /// Most events.
     pub max_steps: u64,
@@ -125,8 +125,8 @@ pub enum RunError {
         /// Triangle or subsegment, by ids.
         place: String,
     },
-    /// A size function returned no positive number.
-    #[error("the size function returned {value} at ({}, {}); it must return a positive number", .at.x, .at.y)]
+    /// A size function returned no number, one that is not positive, or one too small to be computed with.
+    #[error("the size function returned {value} at ({}, {}); it must return a positive number, of at least 2^-399 of the input's extent", .at.x, .at.y)]
     Size {
         /// The place.
         at: Point2,

@@ -37,6 +37,17 @@ impl State {
         self.stage == Stage::Ended
     }
 
+    /// The part of the trace that the next record belongs to: `header`, `input` or `start`; `end` after the last one; else `None`: an event is due, or the end.
+    pub(super) fn part(&self) -> Option<&'static str> {
+        match self.stage {
+            Stage::Fresh => Some("header"),
+            Stage::Vertices | Stage::Segments | Stage::Holes | Stage::Regions => Some("input"),
+            Stage::Started if self.triangles_left > 0 => Some("start"),
+            Stage::Started => None,
+            Stage::Ended => Some("end"),
+        }
+    }
+
     /// What may not be said now. `Ok` means that both forms can express the record.
     pub(super) fn check(&self, record: &Record) -> Result<(), &'static str> {
         match record {

@@ -202,6 +202,12 @@ impl<R: BufRead> Reader<R> {
         self.ledger.state.events
     }
 
+    /// The part of the trace that the next record belongs to: `header`, `input` or `start`; `end` after the last one; else `None`: the next is an
+    /// event, of number `events`, or the end.
+    pub fn part(&self) -> Option<&'static str> {
+        self.ledger.state.part()
+    }
+
     /// Where the next record starts.
     pub fn place(&self) -> Place {
         match self.format {

@@ -6,6 +6,7 @@
 
 use super::super::angle::smallest_angle;
 use super::text;
+use crate::model::words;
 use crate::model::{Mesh2, Point2, SegmentId, VertexKind};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -220,9 +221,9 @@ fn legend(out: &mut Vec<u8>, mesh: &Mesh2, angles: &[f64], top: f64) {
     text(
         out,
         &format!(
-            "<text font-size=\"15\" font-weight=\"600\">{} triangles, {} vertices",
-            grouped(mesh.triangles.len()),
-            grouped(mesh.points.len())
+            "<text font-size=\"15\" font-weight=\"600\">{}, {}",
+            grouped(mesh.triangles.len(), "triangle"),
+            grouped(mesh.points.len(), "vertex")
         ),
     );
     if !angles.is_empty() {
@@ -231,23 +232,23 @@ fn legend(out: &mut Vec<u8>, mesh: &Mesh2, angles: &[f64], top: f64) {
     text(out, "</text>\n");
     let count = |of: fn(VertexKind) -> bool| mesh.kinds.iter().filter(|k| of(**k)).count();
     let keys = [
-        (INK, "input vertices", count(|k| k == VertexKind::Input)),
-        (ON_SEGMENT, "Steiner points on segments", count(|k| matches!(k, VertexKind::Segment(_)))),
-        (FREE, "free Steiner points", count(|k| k == VertexKind::Free)),
+        (INK, "input vertex", count(|k| k == VertexKind::Input)),
+        (ON_SEGMENT, "segment Steiner point", count(|k| matches!(k, VertexKind::Segment(_)))),
+        (FREE, "free Steiner point", count(|k| k == VertexKind::Free)),
     ];
     for (k, (fill, name, count)) in keys.into_iter().enumerate() {
         let y = 26 + 20 * k;
         text(
             out,
             &format!(
-                "<circle cx=\"5\" cy=\"{}\" r=\"4\" fill=\"{fill}\"/><text x=\"18\" y=\"{y}\">{} {name}</text>\n",
+                "<circle cx=\"5\" cy=\"{}\" r=\"4\" fill=\"{fill}\"/><text x=\"18\" y=\"{y}\">{}</text>\n",
                 y - 4,
-                grouped(count)
+                grouped(count, name)
             ),
         );
     }
     text(out, &format!("<path stroke=\"{INK}\" stroke-width=\"2.4\" stroke-linecap=\"round\" d=\"M262 22h18\"/>"));
-    text(out, &format!("<text x=\"290\" y=\"26\">{} subsegments</text>\n</g>\n</g>\n", grouped(mesh.edges.len())));
+    text(out, &format!("<text x=\"290\" y=\"26\">{}</text>\n</g>\n</g>\n", grouped(mesh.edges.len(), "subsegment")));
 }
 
 /// Bars over the colour scale: how many triangles have which smallest angle.
@@ -291,8 +292,8 @@ fn histogram(out: &mut Vec<u8>, angles: &[f64]) {
     text(out, &format!("<text x=\"{}\" y=\"92\">smallest angle of a triangle</text></g>\n", Short(30.0 * DEGREE)));
 }
 
-/// A count with thin spaces between the thousands.
-fn grouped(n: usize) -> String {
+/// A count of something, with thin spaces between the thousands.
+fn grouped(n: usize, noun: &str) -> String {
     let digits = n.to_string();
     let mut out = String::new();
     for (i, c) in digits.chars().enumerate() {
@@ -301,5 +302,5 @@ fn grouped(n: usize) -> String {
         }
         out.push(c);
     }
-    out
+    out + " " + &words::of(&n, noun)
 }

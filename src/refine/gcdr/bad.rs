@@ -57,7 +57,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         Ok(())
     }
 
-    /// The size function at the rounded circumcenter, normalised.
+    /// The size function at the rounded circumcenter, normalised; `None` where it bounds nothing, which huge values say too.
     fn size_at(&mut self, corners: [Point2; 3]) -> Result<Option<f64>, RunError> {
         let (true, Some(size)) = (self.params.size_function, self.options.size.as_mut()) else {
             return Ok(None);
@@ -67,7 +67,10 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         };
         let at = self.scale.to_input(center);
         let value = size(at);
-        let h = if value > 0.0 && value.is_finite() { in_window(value, -self.scale.exponent) } else { None };
-        h.map(Some).ok_or(RunError::Size { at, value })
+        match in_window(value, -self.scale.exponent).filter(|_| value > 0.0) {
+            Some(h) => Ok(Some(h)),
+            None if value > self.scale.to_input(Point2::ONE).x => Ok(None),
+            None => Err(RunError::Size { at, value }),
+        }
     }
 }

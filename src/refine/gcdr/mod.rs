@@ -24,6 +24,7 @@ use super::level::{Sector, level_of, sectors_of};
 use super::run::{Options, Run, RunError, Unmet};
 use crate::arith::{Kernel, scale};
 use crate::domain::{Scale, normalise};
+use crate::model::words::counted;
 use crate::model::{
     Fill, GcdrParameters, Level, Lines, Point2, Pslg, SegmentId, SmallAngles, Triangle, VertexId, VertexKind,
     canonical_triangle,
@@ -173,7 +174,7 @@ impl<K: Kernel> Refiner<'_, '_, K> {
     fn refine(&mut self) -> Result<Option<String>, RunError> {
         while let Some(bad) = self.next_bad() {
             if self.events >= self.options.max_steps {
-                return Ok(Some(format!("the budget of {} steps is spent", self.options.max_steps)));
+                return Ok(Some(format!("the budget of {} is spent", counted(self.options.max_steps, "step"))));
             }
             if self.events.is_multiple_of(STOP_INTERVAL)
                 && let Some(stop) = &mut self.options.stop
