@@ -1,3 +1,4 @@
 //! Floor 3: triangulations.
 
 pub mod cdt2;
+pub mod regular3;

@@ -1,0 +1,191 @@
+//! The star of a new point: its cells replace the conflict zone.
+//!
+//! Every facet of the zone's boundary becomes a cell with the new point p as its apex. The boundary is a sphere of triangles, so
+//! each of its edges lies on two facets, which pass it in opposite directions:
+//!
+//! ```text
+//!            c                    the cell over facet abc: (a, b, c, p)
+//!          /   \                  its facet opposite a holds the directed edge bc, opposite b the edge ca, opposite c the edge ab
+//!        /  abc  \                over edge ab it meets the cell over the facet that passes the edge as ba
+//!      a --------- b
+//!        \  bad  /                so two sweeps glue the star: the first writes each facet's three directed edges into a
+//!          \   /                  table, the second reads the three reversed ones
+//!            d
+//! ```
+//!
+//! The table is square over numbers that the boundary's vertices get on the spot (15 on average). A boundary with more vertices than it
+//! has rows is glued by sorting its edges.
+
+use super::store::{Cell, FIRST, INF, NONE, Regular3};
+use crate::arith::space::Kernel3;
+
+/// A facet of the boundary of a conflict zone.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rim {
+    /// Its vertices; with the new point fourth they are positively oriented.
+    pub(super) v: [u32; 3],
+    /// The cell outside, as a link.
+    pub(super) outer: u32,
+}
+
+/// How many vertices the table has rows for.
+const ROWS: usize = 64;
+
+/// Work lists kept for reuse.
+#[derive(Clone, Debug)]
+pub(super) struct Scratch {
+    /// The conflict zone in the order of its flood; after starring, the slots of the new cells, one for each facet of `rim`.
+    pub(super) zone: Vec<u32>,
+    /// The boundary of the zone.
+    pub(super) rim: Vec<Rim>,
+    /// Whether a ghost is in the zone. Only then a facet of the boundary may have the infinite vertex.
+    pub(super) has_ghosts: bool,
+    numbers: Numbers,
+    /// Per pair of vertex numbers the link of the cell over the edge that leads from one to the other.
+    table: Box<[u32; ROWS * ROWS]>,
+    /// The numbers of the vertices of each facet.
+    corners: Vec<[u8; 3]>,
+}
+
+/// Small numbers for the vertices of a boundary.
+#[derive(Clone, Debug)]
+struct Numbers {
+    /// Per place a number, which is that of the vertex only if the vertex is at home there.
+    number: Vec<u8>,
+    home: [u32; ROWS],
+    count: usize,
+}
+
+impl Numbers {
+    fn clear(&mut self) {
+        self.home[..self.count].fill(NONE);
+        self.count = 0;
+    }
+
+    /// The number of the vertex; `None` when there are too many.
+    #[inline(always)]
+    fn of(&mut self, v: u32) -> Option<usize> {
+        let known = usize::from(self.number[v as usize]) % ROWS;
+        if self.home[known] == v {
+            return Some(known);
+        }
+        let fresh = self.count;
+        *self.home.get_mut(fresh)? = v;
+        self.number[v as usize] = fresh as u8;
+        self.count += 1;
+        Some(fresh)
+    }
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Scratch {
+            zone: Vec::new(),
+            rim: Vec::new(),
+            has_ghosts: false,
+            numbers: Numbers { number: vec![0; FIRST as usize], home: [NONE; ROWS], count: 0 },
+            table: Box::new([0; ROWS * ROWS]),
+            corners: Vec::new(),
+        }
+    }
+}
+
+/// The turn that brings the infinite vertex of (v, p) to the end: corner k goes to k ^ turn. Such exchanges of two pairs are even.
+#[inline(always)]
+fn turn_of(v: [u32; 3]) -> u32 {
+    (0u32..).zip(v).find(|&(_, x)| x == INF).map_or(0, |(k, _)| 3 ^ k)
+}
+
+/// A cell turned.
+#[inline(always)]
+pub(super) fn turned(cell: Cell, turn: u32) -> Cell {
+    let corner = [0, 1, 2, 3].map(|k: u32| ((k ^ turn) & 3) as usize);
+    Cell { v: corner.map(|k| cell.v[k]), n: corner.map(|k| cell.n[k]) }
+}
+
+impl<K: Kernel3> Regular3<K> {
+    /// Makes room for numbers of all places up to now.
+    pub(super) fn reserve_numbers(&self, s: &mut Scratch) {
+        s.numbers.number.resize(self.sites.len(), 0);
+    }
+
+    /// Replaces the conflict zone by the star of place p; returns a finite cell of it.
+    pub(super) fn star(&mut self, p: u32, s: &mut Scratch) -> u32 {
+        while s.zone.len() < s.rim.len() {
+            s.zone.push(self.take_slot());
+        }
+        while s.zone.len() > s.rim.len()
+            && let Some(c) = s.zone.pop()
+        {
+            self.release_slot(c);
+        }
+        let glued = if s.has_ghosts { self.glue::<true>(p, s) } else { self.glue::<false>(p, s) };
+        s.numbers.clear();
+        if glued.is_none() {
+            self.glue_by_sorting(p, s);
+        }
+        if !s.has_ghosts {
+            return s.zone[0];
+        }
+        // The star of a point has finite cells: the boundary of its zone is not all at infinity.
+        s.zone.iter().copied().find(|&c| !self.cells[c as usize].is_ghost()).unwrap_or(s.zone[0])
+    }
+
+    /// Writes the new cells, one over each facet of the boundary; `None` if there are too many vertices.
+    #[inline(always)]
+    fn glue<const GHOSTS: bool>(&mut self, p: u32, s: &mut Scratch) -> Option<()> {
+        let Scratch { zone, rim, numbers, table, corners, .. } = s;
+        corners.clear();
+        for (facet, &t) in rim.iter().zip(zone.iter()) {
+            let turn = if GHOSTS { turn_of(facet.v) } else { 0 };
+            let [a, b, c] = [numbers.of(facet.v[0])?, numbers.of(facet.v[1])?, numbers.of(facet.v[2])?];
+            table[(b * ROWS + c) % (ROWS * ROWS)] = 4 * t + turn;
+            table[(c * ROWS + a) % (ROWS * ROWS)] = 4 * t + (1 ^ turn);
+            table[(a * ROWS + b) % (ROWS * ROWS)] = 4 * t + (2 ^ turn);
+            corners.push([a as u8, b as u8, c as u8]);
+            let outer = (facet.outer >> 2) as usize;
+            self.cells[outer].n[(facet.outer & 3) as usize] = 4 * t + (3 ^ turn);
+            self.marks[outer] = 0;
+        }
+        for ((facet, &t), corners) in rim.iter().zip(zone.iter()).zip(corners.iter()) {
+            let [a, b, c] = corners.map(usize::from);
+            let read = |from: usize, to: usize| table[(from * ROWS + to) % (ROWS * ROWS)];
+            let [x, y, z] = facet.v;
+            let cell = Cell { v: [x, y, z, p], n: [read(c, b), read(a, c), read(b, a), facet.outer] };
+            self.cells[t as usize] = if GHOSTS { turned(cell, turn_of(facet.v)) } else { cell };
+            self.marks[t as usize] = 0;
+        }
+        Some(())
+    }
+
+    /// The same for any number of vertices.
+    #[cold]
+    fn glue_by_sorting(&mut self, p: u32, s: &mut Scratch) {
+        // Undirected edges with the links of their two cells.
+        let mut edges = Vec::with_capacity(3 * s.rim.len());
+        for (facet, &t) in s.rim.iter().zip(&s.zone) {
+            let turn = turn_of(facet.v);
+            let [a, b, c] = facet.v;
+            for (k, (x, y)) in (0u32..).zip([(b, c), (c, a), (a, b)]) {
+                edges.push((x.min(y), x.max(y), 4 * t + (k ^ turn)));
+            }
+            let cell = Cell { v: [a, b, c, p], n: [NONE, NONE, NONE, facet.outer] };
+            self.cells[t as usize] = turned(cell, turn);
+            self.marks[t as usize] = 0;
+            let outer = (facet.outer >> 2) as usize;
+            self.cells[outer].n[(facet.outer & 3) as usize] = 4 * t + (3 ^ turn);
+            self.marks[outer] = 0;
+        }
+        edges.sort_unstable();
+        for pair in edges.chunks_exact(2) {
+            let (one, other) = (pair[0].2, pair[1].2);
+            self.link(one, other);
+        }
+    }
+
+    /// Glues two facets, each named by its cell and opposite corner.
+    pub(super) fn link(&mut self, one: u32, other: u32) {
+        self.cells[(one >> 2) as usize].n[(one & 3) as usize] = other;
+        self.cells[(other >> 2) as usize].n[(other & 3) as usize] = one;
+    }
+}
