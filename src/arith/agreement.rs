@@ -4,13 +4,15 @@
 //! stage of the fast kernel gave. Every case follows from (family, number) alone.
 
 use super::exact::ExactKernel;
-use super::fast::{FastKernel, stages};
+use super::fast::FastKernel;
 use super::kernel::{Corners, Kernel};
 use super::philox::philox4x32;
 use super::plain::PlainKernel;
-use super::{angle, round, scale};
+use super::stages::STAGES;
+use super::{angle, round, scale, stages};
 use crate::model::{Point2, Sign};
 use rug::Rational;
+use std::collections::BTreeMap;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Family {
@@ -51,28 +53,32 @@ const FAMILIES: [Family; 12] = [
 ];
 
 /// Draws of one case.
-struct Draws {
+pub(super) struct Draws {
     key: [u32; 2],
     next: u32,
 }
 
 impl Draws {
+    /// The draws of a case of a family.
+    pub fn of(family: u32, number: u64) -> Draws {
+        Draws { key: [number as u32, (number >> 32) as u32 ^ family << 24], next: 0 }
+    }
     fn word(&mut self) -> u64 {
         self.next += 1;
         let w = philox4x32(self.key, [self.next, 0, 0, 0]);
         u64::from(w[0]) << 32 | u64::from(w[1])
     }
-    fn below(&mut self, n: u64) -> i64 {
+    pub fn below(&mut self, n: u64) -> i64 {
         (self.word() % n) as i64
     }
     /// In [-1, 1), full mantissa.
-    fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         (self.word() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
-    fn one_of<const N: usize>(&mut self, values: [f64; N]) -> f64 {
+    pub fn one_of<const N: usize>(&mut self, values: [f64; N]) -> f64 {
         values[self.below(N as u64) as usize]
     }
-    fn power_of_two(&mut self, low: i64, high: i64) -> f64 {
+    pub fn power_of_two(&mut self, low: i64, high: i64) -> f64 {
         scale::by_power_of_two(1.0, (low + self.below((high - low + 1) as u64)) as i32)
     }
 
@@ -159,7 +165,7 @@ struct Case {
 
 impl Case {
     fn new(family: Family, number: u64) -> Case {
-        let mut d = Draws { key: [number as u32, (number >> 32) as u32 ^ (family as u32) << 24], next: 0 };
+        let mut d = Draws::of(family as u32, number);
         let frame = Frame::of(&mut d, family);
         let mut p = [(); 6].map(|()| d.point(family, &frame));
         match ExactKernel::orient2d(p[0], p[1], p[2]) {
@@ -260,19 +266,43 @@ impl Case {
 
 /// The answers of a kernel, and beside each how many times the stages of the fast kernel were asked for it.
 #[derive(Default)]
-struct Answers {
-    values: Vec<(&'static str, String)>,
-    stages: Vec<[u64; 3]>,
+pub(super) struct Answers {
+    pub values: Vec<(&'static str, String)>,
+    stages: Vec<[u64; STAGES]>,
 }
 
 impl Answers {
-    fn push(&mut self, name: &'static str, value: String) {
+    pub fn push(&mut self, name: &'static str, value: String) {
         self.values.push((name, value));
         self.stages.push(stages::take());
     }
 }
 
-fn bits(x: f64) -> String {
+/// How many answers of each name each stage gave.
+#[derive(Default)]
+pub(super) struct Shares(pub BTreeMap<&'static str, [u64; STAGES]>);
+
+impl Shares {
+    /// Asserts that all answers are equal and counts them; returns their number.
+    pub fn add_equal(&mut self, fast: Answers, exact: Answers, case: impl Fn() -> String) -> u64 {
+        assert_eq!(fast.values.len(), exact.values.len(), "{}", case());
+        for ((f, e), counts) in fast.values.iter().zip(&exact.values).zip(&fast.stages) {
+            assert_eq!(f, e, "{}", case());
+            for (total, count) in self.0.entry(f.0).or_default().iter_mut().zip(counts) {
+                *total += count;
+            }
+        }
+        fast.values.len() as u64
+    }
+
+    pub fn print(&self) {
+        for (name, counts) in self.0.iter().filter(|(_, counts)| counts[1..].iter().any(|&n| n > 0)) {
+            println!("    {name}: {counts:?}");
+        }
+    }
+}
+
+pub(super) fn bits(x: f64) -> String {
     format!("{:016x} {x:e}", x.to_bits())
 }
 
@@ -284,31 +314,24 @@ fn maybe_point(p: Result<Point2, super::OutOfRange>) -> String {
     p.map_or_else(|e| format!("{e:?}"), point)
 }
 
-fn cases() -> u64 {
+pub(super) fn cases() -> u64 {
     std::env::var("ORTHOBALL_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(2_000)
 }
 
 #[test]
 fn fast_and_exact_agree_to_the_bit() {
     for family in FAMILIES {
-        let mut shares = std::collections::BTreeMap::<&str, [u64; 3]>::new();
+        let mut shares = Shares::default();
         for number in 0..cases() {
             let case = Case::new(family, number);
             stages::take();
             let (fast, exact) = (case.answers::<FastKernel>(), case.answers::<ExactKernel>());
-            assert_eq!(fast.values.len(), exact.values.len(), "{family:?} {number}");
-            for ((f, e), counts) in fast.values.iter().zip(&exact.values).zip(fast.stages) {
-                assert_eq!(f, e, "{family:?} {number}: {:?}", case.p);
-                let total = shares.entry(f.0).or_default();
-                for k in 0..3 {
-                    total[k] += counts[k];
-                }
-            }
+            shares.add_equal(fast, exact, || format!("{family:?} {number}: {:?}", case.p));
         }
-        println!("{family:?}: answers by running filter, by double-double, by exact integers");
-        for (name, counts) in shares.iter().filter(|(_, counts)| counts[1] + counts[2] > 0) {
-            println!("    {name}: {counts:?}");
-        }
+        println!(
+            "{family:?}: answers by running filter, by double-double, by exact integers, by integers of fixed width"
+        );
+        shares.print();
     }
 }
 

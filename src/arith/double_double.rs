@@ -204,4 +204,10 @@ impl Ring for DoubleDouble {
         let err = a.err.max(b.err).max(c.err) + overflow;
         (DoubleDouble { err, ..b }, DoubleDouble { err, ..c })
     }
+    #[inline]
+    fn smaller(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble {
+        let overflow = (a.hi + b.hi) * 0.0;
+        let err = a.err.max(b.err) + overflow;
+        if a.hi > b.hi || (a.hi == b.hi && a.lo > b.lo) { DoubleDouble { err, ..b } } else { DoubleDouble { err, ..a } }
+    }
 }

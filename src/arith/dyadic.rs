@@ -177,6 +177,9 @@ impl Ring for Dyadic {
         let [_, middle, largest] = v;
         (middle, largest)
     }
+    fn smaller(a: Dyadic, b: Dyadic) -> Dyadic {
+        a.min(b)
+    }
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use std::cmp::Ordering;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ExactKernel;
 
-fn rational(x: f64) -> Rational {
+pub(super) fn rational(x: f64) -> Rational {
     // The kernel's arguments are finite by contract.
     Rational::from_f64(x).expect("finite by the kernel's contract")
 }
@@ -65,7 +65,7 @@ impl Exact2 {
 }
 
 /// The range rule of a constructed coordinate.
-fn coordinate(rounded: f64) -> Result<f64, OutOfRange> {
+pub(super) fn coordinate(rounded: f64) -> Result<f64, OutOfRange> {
     if rounded.abs() > LARGEST {
         Err(OutOfRange)
     } else if rounded.abs() < FLUSH_BELOW {
@@ -112,20 +112,22 @@ struct Integer2 {
     y: Integer,
 }
 
+/// x = m 2^e, by the fields of a finite f64.
+pub(super) fn dyadic_parts(x: f64) -> (i64, i64) {
+    let field = ((x.to_bits() >> 52) & 0x7ff) as i64;
+    let fraction = x.to_bits() & ((1 << 52) - 1);
+    let m = if field == 0 { fraction } else { fraction | 1 << 52 } as i64;
+    (if x < 0.0 { -m } else { m }, field.max(1) - 1075)
+}
+
 /// The points over the finest power of two among their coordinates.
 fn over_common_power<const N: usize>(points: [Point2; N]) -> [Integer2; N] {
-    let parts = |x: f64| {
-        let field = ((x.to_bits() >> 52) & 0x7ff) as u32;
-        let fraction = x.to_bits() & ((1 << 52) - 1);
-        let m = if field == 0 { fraction } else { fraction | 1 << 52 } as i64;
-        (if x < 0.0 { -m } else { m }, field.max(1))
-    };
     let coordinates = points.iter().flat_map(|p| [p.x, p.y]);
-    let nonzero = coordinates.map(parts).filter(|&(m, _)| m != 0);
+    let nonzero = coordinates.map(dyadic_parts).filter(|&(m, _)| m != 0);
     let finest = nonzero.map(|(_, e)| e).min().unwrap_or(0);
     let integer = |x: f64| {
-        let (m, e) = parts(x);
-        Integer::from(m) << e.saturating_sub(finest)
+        let (m, e) = dyadic_parts(x);
+        Integer::from(m) << e.saturating_sub(finest).max(0) as u32
     };
     points.map(|p| Integer2 { x: integer(p.x), y: integer(p.y) })
 }
@@ -191,7 +193,7 @@ fn compare(a: Option<Rational>, b: Option<Rational>) -> Ordering {
     }
 }
 
-fn sign(order: Ordering) -> Sign {
+pub(super) fn sign(order: Ordering) -> Sign {
     match order {
         Ordering::Less => Sign::Negative,
         Ordering::Equal => Sign::Zero,
@@ -206,7 +208,7 @@ fn shrunk2(d: f64) -> Rational {
 }
 
 /// The rational rounded once to nearest, ties to even; infinite beyond the largest f64.
-fn round(q: &Rational) -> f64 {
+pub(super) fn round(q: &Rational) -> f64 {
     let (n, d) = (q.numer(), q.denom());
     if n.cmp0() == Ordering::Equal {
         return 0.0;
@@ -252,7 +254,7 @@ fn round_in_binade(n: &Integer, d: &Integer, e: i64) -> f64 {
 }
 
 /// p + q sqrt(radicand) rounded once; the radicand is not negative.
-fn round_root(p: &Rational, q: &Rational, radicand: &Rational) -> f64 {
+pub(super) fn round_root(p: &Rational, q: &Rational, radicand: &Rational) -> f64 {
     // sqrt(n/d) = sqrt(n d)/d; rational iff n d is a square.
     let (n, d) = (radicand.numer(), radicand.denom());
     let product = (n * d).complete();

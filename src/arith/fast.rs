@@ -7,9 +7,10 @@
 use super::construct;
 use super::double_double::DoubleDouble;
 use super::dyadic::Dyadic;
-use super::filter::{self, Bounded};
+use super::filter;
 use super::kernel::{Corners, Kernel, OutOfRange};
-use super::poly::{self, Center, Fraction, Ring, Rooted};
+use super::poly::{self, Center, Ring, Rooted};
+use super::stages::{rarely, rounded_fraction, sign_of, sign_without_filter};
 use super::{round, scale};
 use crate::model::{Point2, Sign};
 use std::cmp::Ordering;
@@ -17,56 +18,6 @@ use std::cmp::Ordering;
 /// Filters first, exact integers last; the same answers as every other kernel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FastKernel;
-
-/// The exact stage, kept out of the callers' way.
-#[cold]
-#[inline(never)]
-fn rarely<T>(exact: impl FnOnce() -> T) -> T {
-    #[cfg(test)]
-    stages::count(2);
-    exact()
-}
-
-/// The sign of a polynomial, by the first stage that can tell.
-macro_rules! sign_of {
-    ($polynomial:ident($($argument:expr),*)) => {
-        match poly::$polynomial::<Bounded>($($argument),*).sign() {
-            Some(sign) => {
-                #[cfg(test)]
-                stages::count(0);
-                sign
-            }
-            None => sign_without_filter!($polynomial($($argument),*)),
-        }
-    };
-}
-
-/// The sign of a polynomial whose filter has declined.
-macro_rules! sign_without_filter {
-    ($polynomial:ident($($argument:expr),*)) => {
-        match poly::$polynomial::<DoubleDouble>($($argument),*).sign() {
-            Some(sign) => {
-                #[cfg(test)]
-                stages::count(1);
-                sign
-            }
-            None => rarely(|| poly::$polynomial::<Dyadic>($($argument),*).sign()),
-        }
-    };
-}
-
-/// A fraction rounded once, by the first stage that can tell.
-macro_rules! rounded_fraction {
-    ($fraction:ident($($argument:expr),*)) => {{
-        let Fraction { num, den } = poly::$fraction::<DoubleDouble>($($argument),*);
-        num.over(&den).rounded().unwrap_or_else(|| {
-            rarely(|| {
-                let Fraction { num, den } = poly::$fraction::<Dyadic>($($argument),*);
-                round::ratio(&num, &den)
-            })
-        })
-    }};
-}
 
 /// A point of the form base + offset/den, by the first stage that can tell.
 macro_rules! rounded_center {
@@ -145,7 +96,7 @@ fn flushed(p: Point2) -> Point2 {
 
 /// The order of a difference against 0.
 #[inline]
-fn order(difference: Sign) -> Ordering {
+pub(super) fn order(difference: Sign) -> Ordering {
     match difference {
         Sign::Negative => Ordering::Less,
         Sign::Zero => Ordering::Equal,
@@ -166,30 +117,30 @@ impl Kernel for FastKernel {
 
     #[inline]
     fn in_diametral_circle(u: Point2, v: Point2, w: Point2) -> Sign {
-        sign_of!(in_diametral_circle(u, v, w))
+        sign_of!(poly::in_diametral_circle(u, v, w))
     }
 
     #[inline]
     fn walk_side(t: Corners, q: Point2, w: Point2) -> Sign {
-        filter::walk_side(t, q, w).unwrap_or_else(|| sign_without_filter!(walk_side(t, q, w)))
+        filter::walk_side(t, q, w).unwrap_or_else(|| sign_without_filter!(poly::walk_side(t, q, w)))
     }
 
     fn edge_meets_diametral_disk(u: Point2, v: Point2, a: Point2, b: Point2) -> bool {
         let end_inside =
             Self::in_diametral_circle(u, v, a).is_positive() || Self::in_diametral_circle(u, v, b).is_positive();
         end_inside
-            || (sign_of!(foot_after_start(u, v, a, b)).is_positive()
-                && sign_of!(foot_before_end(u, v, a, b)).is_positive()
-                && sign_of!(foot_depth(u, v, a, b)).is_positive())
+            || (sign_of!(poly::foot_after_start(u, v, a, b)).is_positive()
+                && sign_of!(poly::foot_before_end(u, v, a, b)).is_positive()
+                && sign_of!(poly::foot_depth(u, v, a, b)).is_positive())
     }
 
     #[inline]
     fn compare_lengths(a: Point2, b: Point2, c: Point2, d: Point2) -> Ordering {
-        order(sign_of!(lengths(a, b, c, d)))
+        order(sign_of!(poly::lengths(a, b, c, d)))
     }
 
     fn compare_ratio(t1: Corners, t2: Corners) -> Ordering {
-        order(sign_of!(ratios(t1, t2)))
+        order(sign_of!(poly::ratios(t1, t2)))
     }
 
     fn compare_area_ratio(t1: Corners, bound1: f64, t2: Corners, bound2: f64) -> Ordering {
@@ -199,37 +150,41 @@ impl Kernel for FastKernel {
         {
             return order;
         }
-        order(sign_of!(area_ratios(t1, bound1, t2, bound2)))
+        order(sign_of!(poly::area_ratios(t1, bound1, t2, bound2)))
     }
 
     fn compare_radius_ratio(t1: Corners, h1: f64, t2: Corners, h2: f64) -> Ordering {
-        order(sign_of!(radius_ratios(t1, h1, t2, h2)))
+        order(sign_of!(poly::radius_ratios(t1, h1, t2, h2)))
     }
 
     #[inline]
     fn is_skinny(t: Corners, rho2: f64) -> bool {
-        filter::is_skinny(t, rho2).unwrap_or_else(|| !sign_without_filter!(skinny(t, rho2)).is_negative())
+        filter::is_skinny(t, rho2).unwrap_or_else(|| !sign_without_filter!(poly::skinny(t, rho2)).is_negative())
     }
 
     #[inline]
     fn exceeds_area(t: Corners, bound: f64) -> bool {
-        sign_of!(area_excess(t, bound)).is_positive()
+        sign_of!(poly::area_excess(t, bound)).is_positive()
     }
 
     fn exceeds_radius(t: Corners, h: f64) -> bool {
-        sign_of!(radius_excess(t, h)).is_positive()
+        sign_of!(poly::radius_excess(t, h)).is_positive()
     }
 
     fn in_selection_disk(t: Corners, d2: f64, a: Point2) -> bool {
-        !sign_of!(in_selection_disk(t, d2, a)).is_negative()
+        !sign_of!(poly::in_selection_disk(t, d2, a)).is_negative()
     }
 
     fn in_selection_interval(u: Point2, v: Point2, delta: f64, p: Point2) -> bool {
-        !sign_of!(in_selection_interval(u, v, delta, p)).is_negative()
+        !sign_of!(poly::in_selection_interval(u, v, delta, p)).is_negative()
     }
 
     fn compare_cos2(apex: Point2, p: Point2, q: Point2, bound: f64) -> Ordering {
-        if sign_of!(dot(apex, p, q)).is_positive() { order(sign_of!(cos2(apex, p, q, bound))) } else { Ordering::Less }
+        if sign_of!(poly::dot(apex, p, q)).is_positive() {
+            order(sign_of!(poly::cos2(apex, p, q, bound)))
+        } else {
+            Ordering::Less
+        }
     }
 
     fn shell_exponent(u: Point2, v: Point2) -> i32 {
@@ -241,7 +196,7 @@ impl Kernel for FastKernel {
         loop {
             let threshold = 9.0 * scale::by_power_of_two(1.0, 2 * k);
             let reached = match four_l2.total_cmp(&threshold) {
-                Ordering::Equal => !sign_of!(length2_less(u, v, threshold / 4.0)).is_negative(),
+                Ordering::Equal => !sign_of!(poly::length2_less(u, v, threshold / 4.0)).is_negative(),
                 other => other.is_gt(),
             };
             if reached {
@@ -259,15 +214,15 @@ impl Kernel for FastKernel {
     }
 
     fn ratio2(t: Corners) -> f64 {
-        rounded_fraction!(ratio2(t))
+        rounded_fraction!(poly::ratio2(t))
     }
 
     fn area_ratio(t: Corners, bound: f64) -> f64 {
-        construct::area_ratio(t, bound).unwrap_or_else(|| rounded_fraction!(area_ratio(t, bound)))
+        construct::area_ratio(t, bound).unwrap_or_else(|| rounded_fraction!(poly::area_ratio(t, bound)))
     }
 
     fn radius_ratio2(t: Corners, h: f64) -> f64 {
-        rounded_fraction!(radius_ratio2(t, h))
+        rounded_fraction!(poly::radius_ratio2(t, h))
     }
 
     #[inline]
@@ -294,7 +249,7 @@ impl Kernel for FastKernel {
     }
 
     fn offcenter(t: Corners, kappa: f64) -> Result<Point2, OutOfRange> {
-        if sign_of!(center_beyond(t, kappa)).is_positive() {
+        if sign_of!(poly::center_beyond(t, kappa)).is_positive() {
             in_range(nearer_offcenter(t, kappa))
         } else {
             Self::circumcenter(t)
@@ -302,9 +257,9 @@ impl Kernel for FastKernel {
     }
 
     fn clamped_offcenter(t: Corners, kappa: f64, d2: f64) -> Result<Point2, OutOfRange> {
-        if !sign_of!(center_beyond(t, kappa)).is_positive() {
+        if !sign_of!(poly::center_beyond(t, kappa)).is_positive() {
             Self::circumcenter(t)
-        } else if sign_of!(offcenter_outside_disk(t, kappa, d2)).is_positive() {
+        } else if sign_of!(poly::offcenter_outside_disk(t, kappa, d2)).is_positive() {
             in_range(rounded_root!(t[0], clamped(t, d2)))
         } else {
             in_range(nearer_offcenter(t, kappa))
@@ -334,28 +289,5 @@ fn orient2d_adaptively(a: Point2, b: Point2, c: Point2) -> Sign {
 
 #[inline(never)]
 fn in_circle_without_filter(t: Corners, q: Point2) -> Sign {
-    filter::in_circle_on_grid(t, q).unwrap_or_else(|| sign_without_filter!(in_circle(t, q)))
-}
-
-/// How many answers each stage gave, per thread; only tests count.
-#[cfg(test)]
-pub(super) mod stages {
-    use std::cell::Cell;
-
-    thread_local! {
-        static COUNTS: Cell<[u64; 3]> = const { Cell::new([0; 3]) };
-    }
-
-    pub fn count(stage: usize) {
-        COUNTS.with(|c| {
-            let mut counts = c.get();
-            counts[stage] += 1;
-            c.set(counts);
-        });
-    }
-
-    /// The counts since the last call.
-    pub fn take() -> [u64; 3] {
-        COUNTS.take()
-    }
+    filter::in_circle_on_grid(t, q).unwrap_or_else(|| sign_without_filter!(poly::in_circle(t, q)))
 }

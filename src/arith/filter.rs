@@ -79,6 +79,11 @@ impl Ring for Bounded {
         let (middle, high) = (low.max(high.min(c.value)), high.max(c.value));
         (Bounded { value: middle, err }, Bounded { value: high, err })
     }
+    #[inline]
+    fn smaller(a: Bounded, b: Bounded) -> Bounded {
+        let overflow = (a.value + b.value) * 0.0;
+        Bounded { value: a.value.min(b.value), err: a.err.max(b.err) + overflow }
+    }
 }
 
 /// Sign of cross(a, b, c) where the filter can tell.
@@ -196,7 +201,7 @@ pub(super) fn is_skinny([a, b, c]: Corners, rho2: f64) -> Option<bool> {
 }
 
 #[inline]
-fn sign_beyond(value: f64, bound: f64) -> Option<Sign> {
+pub(super) fn sign_beyond(value: f64, bound: f64) -> Option<Sign> {
     if value > bound {
         Some(Sign::Positive)
     } else if value < -bound {

@@ -21,6 +21,7 @@ mod poly;
 mod round;
 pub mod scale;
 pub mod space;
+mod stages;
 
 pub use dyadic::Dyadic;
 #[cfg(feature = "exact")]

@@ -23,6 +23,8 @@ pub(super) trait Ring: Clone {
     fn doubled(&self) -> Self;
     /// The middle and the largest of three values.
     fn two_largest(values: [Self; 3]) -> (Self, Self);
+    /// The smaller of two values.
+    fn smaller(a: Self, b: Self) -> Self;
 }
 
 /// num / den.
