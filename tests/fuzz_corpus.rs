@@ -3,7 +3,7 @@
 
 use arbitrary::{Arbitrary, Unstructured};
 use orthoball::attack::readers::{self, Target};
-use orthoball::attack::{CdtCase, GcdrCase, KernelCase, MutatedTraceCase};
+use orthoball::attack::{CdtCase, GcdrCase, KernelCase, MutatedMeshCase, MutatedTraceCase, UserCase};
 use orthoball::trace::{Event, Record, SkipReason, SplitKind, Why};
 use std::path::Path;
 
@@ -57,6 +57,20 @@ fn gcdr() {
 fn mutated_traces() {
     replay("mutated_traces", |bytes| {
         decoded::<MutatedTraceCase>(bytes).iter().for_each(MutatedTraceCase::run);
+    });
+}
+
+#[test]
+fn users() {
+    replay("users", |bytes| {
+        decoded::<UserCase>(bytes).iter().for_each(UserCase::run);
+    });
+}
+
+#[test]
+fn mutated_meshes() {
+    replay("mutated_meshes", |bytes| {
+        decoded::<MutatedMeshCase>(bytes).iter().for_each(MutatedMeshCase::run);
     });
 }
 

@@ -89,7 +89,8 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(complex: &'a Complex<'a>, input: &'a Pslg, within: f64) -> Self {
         let largest = complex.vertices.iter().fold(0.0f64, |m, &v| m.max(complex.point(v).abs().max_element()));
-        let ulp = largest.next_up() - largest;
+        let above = largest.next_up();
+        let ulp = if above.is_finite() { above - largest } else { largest - largest.next_down() };
         let key = |e: &[VertexId; 2]| [e[0].0.min(e[1].0), e[0].0.max(e[1].0)];
         let mut named: Vec<[u32; 2]> = complex.subject.edges.iter().map(key).collect();
         named.sort_unstable();
@@ -98,7 +99,7 @@ impl<'a> Search<'a> {
         Search {
             complex,
             input,
-            tolerance: within * ulp,
+            tolerance: (within * ulp).min(f64::MAX),
             ulp,
             neighbors: neighbors(complex),
             named,

@@ -296,6 +296,15 @@ fn a_vertex_of_no_triangle_in_a_triangle() {
     }
 }
 
+#[test]
+fn the_largest_numbers_have_a_unit_in_the_last_place() {
+    // A chain is looked for, with a tolerance that was infinite where the next number is.
+    let far = [(0.0, 0.0), (f64::MAX, 0.0), (f64::MAX, f64::MAX), (f64::MAX / 2.0, 0.0)];
+    let graph = input(&far[..3], &[[0, 1], [1, 2], [2, 0]], &[]);
+    let report = conforms(&far, &[[0, 3, 2], [3, 1, 2]], &graph);
+    assert_eq!(report.verdict, Verdict::Holds, "{report:?}");
+}
+
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(2000))]
     /// Of many vertices in no triangle, those in triangles are told by the tree as by trying all.
