@@ -1,12 +1,13 @@
 //! What fuzzing found, one minimal case each. The first line of each says what was wrong.
-#![cfg(feature = "generators")]
+#![cfg(all(feature = "exact", feature = "generators"))]
 
 use orthoball::arith::FastKernel;
+use orthoball::attack::{CdtCase, CdtStep};
 use orthoball::check::{Options, Rule, Verdict, verify};
 use orthoball::io::parse_poly;
-use orthoball::model::{Fill, GcdrParameters, Pslg};
+use orthoball::model::{Fill, GcdrParameters, Point2, Pslg, VertexId};
 use orthoball::refine::{self, gcdr};
-use orthoball::trace::{Record, Recorder};
+use orthoball::trace::{Event, Record, Recorder};
 
 /// Circumcenters and midpoints, 25 degrees.
 fn parameters() -> GcdrParameters {
@@ -86,4 +87,48 @@ fn an_infinite_size_is_no_bound() {
     });
     assert_eq!(counts[..3], [2; 3]);
     assert!(counts[3] > 2);
+}
+
+/// A split point was rounded off the border over the other side of a gap of 2^-116: the region overlapped itself.
+#[test]
+fn a_split_point_stays_on_its_side_of_a_gap() {
+    let points = [
+        (-3.2194268356686055e-15, -2.442945998686058e-12),
+        (3.009265538105056e-36, -6.018531076210112e-36),
+        (-9.027796614315168e-36, 3.009265538105056e-36),
+        (-2.3131814014299572e-35, -2.3398203159771908e-35),
+        (-4.953928271217654e-35, -9.294185759787505e-36),
+        (3.009265538105056e-36, -9.294185759787505e-36),
+        (3.0092655381050554e-36, -6.018531076210117e-36),
+        (-0.8890681750289893, -8.536238181618117e-19),
+    ];
+    let segments = [[1, 6], [4, 0], [3, 0], [3, 4], [6, 2], [0, 2]];
+    let hole = Point2::new(-4.671300981816082e-35, -3.881341337253515e-35);
+    let case = CdtCase {
+        points: points.map(|(x, y)| Point2::new(x, y)).to_vec(),
+        segments: segments.map(|s| s.map(VertexId)).to_vec(),
+        carved: Some(vec![hole]),
+        steps: vec![
+            CdtStep::Split(6, -0.9995708456135546),
+            CdtStep::Insert(Point2::new(-6.018531076210117e-36, -1.8055593228630341e-35), 51),
+        ],
+    };
+    case.run();
+}
+
+/// Not a finding, but what too strict a mend of the one above would break: filler gives way where a border of nearly collinear pieces is split, also
+/// past a chord of the hull along it.
+#[test]
+fn nearly_collinear_pieces_of_a_border_are_split() {
+    // The middle of 1 2 3 lies an ulp inside their hull on one side, and outside on the other.
+    for x in [0.3, 0.3_f64.next_up(), 0.3_f64.next_down()] {
+        let poly = format!(
+            "5 2\n1 0.1 0.1\n2 {x} 0.3\n3 0.9 0.9\n4 0.1 0.9\n5 0.1 0.8\n5 0\n1 1 2\n2 2 3\n3 3 4\n4 4 5\n5 5 1\n0\n"
+        );
+        let everyday = GcdrParameters { max_area: Some(1e-3), ..parameters() };
+        let records = trace(&poly, &everyday);
+        assert_eq!(rule(&records), None);
+        let skips = records.iter().filter(|r| matches!(r, Record::Event(Event::Skip { .. }))).count();
+        assert_eq!(skips, 0, "{x}");
+    }
 }

@@ -21,7 +21,7 @@ mod refinement;
 mod users;
 
 pub use audits::MutatedMeshCase;
-pub use cdt::CdtCase;
+pub use cdt::{CdtCase, Step as CdtStep};
 pub use kernels::KernelCase;
 pub use mutations::MutatedTraceCase;
 pub use refinement::GcdrCase;

@@ -20,7 +20,7 @@
 //! | file | says |
 //! |---|---|
 //! | `condition`, `sight` | each condition as the sign of a polynomial; who sees what |
-//! | `cause`, `split`, `shells` | why a triangle is bad, what a split needs, small input angles |
+//! | `cause`, `split`, `filler`, `shells` | why a triangle is bad, what a split needs (on the border too), small input angles |
 //! | `rows` | the inequalities of the theory, `docs/gcdr.md` |
 //! | `ledger`, `scale` | what the rules keep account of; units |
 //! | `start`, `promise`, `claims` | the initial triangulation and its region; the level; the end |
@@ -35,6 +35,7 @@ mod claims;
 mod complex;
 mod condition;
 mod exact;
+mod filler;
 pub mod grading;
 mod ledger;
 mod predicates;

@@ -75,27 +75,13 @@ impl Replay {
                 self.fan(p, rims[i].clone(), regions[i]);
                 halves[i] = [4 * self.created[self.created.len() - 1] + 1, 4 * self.created[start] + 2];
             } else if sides[i] != NONE {
-                halves[i] = self.split_outside(sides[i], p);
+                halves[i] = self.split_outside(sides[i], p)?;
             }
         }
         self.mesh.join(halves[0][0], halves[1][1], segment);
         self.mesh.join(halves[0][1], halves[1][0], segment);
         self.measure(p);
         Ok(p)
-    }
-
-    /// Splits a triangle outside the region, which only holds stars together: (u, v, a) into (u, p, a), (p, v, a).
-    pub(super) fn split_outside(&mut self, e: u32, p: u32) -> [u32; 2] {
-        let t = triangle_of(e);
-        let (u, v, a) = (self.mesh.origin(e), self.mesh.target(e), self.mesh.apex(e));
-        let rim = [next(e), previous(e)].map(|e| (self.mesh.beyond(e), self.mesh.segment(e)));
-        let facts = *self.mesh.facts(t);
-        self.mesh.drop(t);
-        let (left, right) = (self.mesh.add([u, p, a], facts), self.mesh.add([p, v, a], facts));
-        self.mesh.join(4 * right + 1, rim[0].0, rim[0].1);
-        self.mesh.join(4 * left + 2, rim[1].0, rim[1].1);
-        self.mesh.join(4 * left + 1, 4 * right + 2, NONE);
-        [4 * left, 4 * right]
     }
 
     pub(super) fn begin_flood(&mut self) {

@@ -9,6 +9,7 @@ mod queue;
 
 use super::complex::{Kind, NONE, canonical, next, numbers, triangle_of};
 use super::condition::{is_shell_exponent, is_skinny, shortest_edge};
+use super::filler;
 use super::predicates::{in_circle, in_conflict, orient};
 use super::replay::Replay;
 use super::scale::Scale;
@@ -292,7 +293,10 @@ fn splits_well(replay: &mut Replay, s: u32, p: Point2, witnesses: &[u32]) -> boo
             }
     });
     doomed.sort_unstable();
-    [s, mesh.beyond(s)].into_iter().filter(|&e| mesh.inside(e).is_some()).all(|e| {
+    [s, mesh.beyond(s)].into_iter().filter(|&e| e != NONE).all(|e| {
+        if mesh.inside(e).is_none() {
+            return filler::swept(mesh, e, p).is_some();
+        }
         let [from, to] = [mesh.origin(e), mesh.target(e)].map(|v| mesh.at(v));
         let Some(apex) = apex_after(replay, e, &doomed) else {
             return false;

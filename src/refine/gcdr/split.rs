@@ -105,18 +105,11 @@ impl<K: Kernel> Refiner<'_, '_, K> {
         near.into_iter().find(|&w| self.cdt.sees(w, s, Target::Point(p))).ok_or(SkipReason::Resolution)
     }
 
-    /// Whether p is in conflict with the triangles at s, and every triangle that the split makes there is positively
-    /// oriented. Both are true of the exact point; a rounded one can lie further off s than the circles bulge beyond it.
+    /// Whether the split can be made: false where the rounded p lies further off s than the circles of its triangles bulge beyond it, or than
+    /// what lies across a gap outside.
     pub(super) fn splits_properly(&self, [u, v]: [VertexId; 2], p: Point2) -> bool {
-        let (pu, pv) = (self.cdt.point(u), self.cdt.point(v));
-        let proper = |from: Point2, to: Point2, apex: Point2| {
-            K::orient2d(from, p, apex).is_positive()
-                && K::orient2d(p, to, apex).is_positive()
-                && K::in_conflict([from, to, apex], p)
-        };
-        let left = self.cdt.find_edge(u, v).map(|e| self.cdt.point(self.cdt.apex(e)));
-        let right = self.cdt.find_edge(v, u).map(|e| self.cdt.point(self.cdt.apex(e)));
-        left.is_none_or(|a| proper(pu, pv, a)) && right.is_none_or(|b| proper(pv, pu, b))
+        let e = self.cdt.find_edge(u, v).or_else(|| self.cdt.find_edge(v, u));
+        e.is_some_and(|e| self.cdt.may_split(e, p))
     }
 
     /// Vertices other than the ends of s, strictly inside one of the disks, found by flooding them from the triangles at s

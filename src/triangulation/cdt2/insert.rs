@@ -62,10 +62,56 @@ impl<K: Kernel> Cdt2<K> {
         VertexId(v)
     }
 
-    /// Splits the constrained edge e at p: its one or two triangles are destroyed without test, then the flood goes on
-    /// from each on its own side (an outside triangle is only cut in two). The new edges (u, p), (p, v) carry the segment's id.
+    /// Whether the constrained edge e = (u, v) can be split at p: with a the apex on a side in the region, (u, p, a) and (p, v, a) are positively
+    /// oriented and p is in conflict with (u, v, a); on the other side the filler gives way.
     ///
-    /// Shape: with a the apex on either side, (u, p, a) and (p, v, a) are positively oriented (the caller's test).
+    /// All of it is true of a point on e. A rounded one can lie further off e than a circle bulges beyond it, or than what lies across a gap.
+    pub fn may_split(&self, e: HalfEdge, p: Point2) -> bool {
+        [Some(e.0), self.link(e.0).twin()].into_iter().flatten().all(|e| {
+            if !self.slots[(e >> 2) as usize].is_inside() {
+                return self.filler_gives_way(e, p);
+            }
+            let [u, v, a] = self.corners_of(&[e, next(e), prev(e)].map(|e| self.origin_of(e)));
+            K::orient2d(u, p, a).is_positive() && K::orient2d(p, v, a).is_positive() && K::in_conflict([u, v, a], p)
+        })
+    }
+
+    /// Whether the filler that p, rounded off the border edge `root`, sweeps over can be starred anew: it ends before the next constrained edge
+    /// and encloses no vertex. Filler thus stays a triangulation, and the region never meets itself across it.
+    fn filler_gives_way(&self, root: u32, p: Point2) -> bool {
+        if self.side(root, p).is_negative() {
+            return true;
+        }
+        let mut zone = std::collections::BTreeSet::from([root >> 2]);
+        let mut stack = if self.is_filler(root) { vec![prev(root), next(root)] } else { Vec::new() };
+        while let Some(e) = stack.pop() {
+            if let Some(f) = self.swept(e, p) {
+                if !zone.insert(f >> 2) {
+                    return false;
+                }
+                stack.extend([prev(f), next(f)]);
+            } else if self.link(e).is_constrained() && !self.side(e, p).is_positive() {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Whether the triangle of e, outside, is positively oriented. One that was turned over stands where p left the hull: nothing lies there.
+    fn is_filler(&self, e: u32) -> bool {
+        let [a, b, c] = self.corners_of(&self.slots[(e >> 2) as usize].v);
+        K::orient2d(a, b, c).is_positive()
+    }
+
+    /// The half-edge on the other side of e, an edge of filler, if p lies on or beyond e and filler is there.
+    fn swept(&self, e: u32, p: Point2) -> Option<u32> {
+        self.link(e).passage().filter(|&f| !self.side(e, p).is_positive() && self.is_filler(f))
+    }
+
+    /// Splits the constrained edge e at p: its one or two triangles are destroyed without test, then the flood goes on
+    /// from each on its own side (outside, to what p sweeps over). The new edges (u, p), (p, v) carry the segment's id.
+    ///
+    /// Shape: `may_split` (the caller's test).
     pub fn split(&mut self, e: HalfEdge, p: Point2, change: &mut Change) -> VertexId {
         change.clear();
         debug_assert!(self.is_constrained(e));
@@ -76,15 +122,13 @@ impl<K: Kernel> Cdt2<K> {
         let (first, second) = if forward { (Some(e.0), twin) } else { (twin, Some(e.0)) };
         let mut s = self.begin();
         for root in [first, second].into_iter().flatten() {
-            s.zone.push(root >> 2);
-            s.stack.extend([prev(root), next(root)]);
             if self.slots[(root >> 2) as usize].is_inside() {
+                s.zone.push(root >> 2);
+                s.stack.extend([prev(root), next(root)]);
                 self.flood(&mut s, p);
             } else {
                 self.outside += 1;
-                while let Some(e) = s.stack.pop() {
-                    s.rim.push(self.rim(e));
-                }
+                self.flood_filler(&mut s, root, p);
             }
         }
         let [u, v] = [self.origin_of(e.0), self.origin_of(next(e.0))];
@@ -123,6 +167,27 @@ impl<K: Kernel> Cdt2<K> {
                 }
             }
             s.rim.push(self.rim(e));
+        }
+    }
+
+    /// The same outside the region, for a border edge `root` that may be split at p: what p sweeps over goes. If p was rounded into the region,
+    /// that is nothing, and a triangle between the edge and p comes in addition.
+    fn flood_filler(&self, s: &mut Scratch, root: u32, p: Point2) {
+        if self.side(root, p).is_negative() {
+            s.rim.push(Rim { origin: self.origin_of(next(root)), outer: Link::to(root), label: NONE, region: OUTSIDE });
+            return;
+        }
+        s.zone.push(root >> 2);
+        s.stack.extend([prev(root), next(root)]);
+        let whole = self.is_filler(root);
+        while let Some(e) = s.stack.pop() {
+            match self.swept(e, p).filter(|_| whole) {
+                Some(f) => {
+                    s.zone.push(f >> 2);
+                    s.stack.extend([prev(f), next(f)]);
+                }
+                None => s.rim.push(self.rim(e)),
+            }
         }
     }
 
