@@ -1,9 +1,12 @@
 //! Formats by the extension of a file's name, and what each of them can hold.
 
+use super::msh::parse_any_msh;
 use super::triangle::node_is_spatial;
+use super::vtu::parse_any_vtu;
 use super::{Column, ForeignMesh, ForeignMesh3, Input, Input3, ReadError, TetgenFiles, TriangleFiles, write};
-use super::{parse_csv, parse_node3, parse_npy, parse_off3, parse_ply, parse_tetgen, parse_xyz};
+use super::{parse_csv, parse_medit, parse_msh3, parse_node3, parse_npy, parse_off3, parse_ply, parse_tetgen};
 use super::{parse_geojson, parse_msh, parse_node, parse_node_ele, parse_off, parse_poly, parse_vtu, parse_wkt};
+use super::{parse_vtk, parse_vtu3, parse_xyz};
 use crate::model::{Mesh2, Pslg};
 use std::path::Path;
 
@@ -109,7 +112,18 @@ impl Format {
 
     /// Whether meshes of space are read from it. `.node`, `.ele`, `.face` and `.edge` name a mesh together.
     pub fn reads_mesh3(self) -> bool {
-        matches!(self, Format::Node | Format::Ele | Format::Face | Format::Edge)
+        matches!(
+            self,
+            Format::Node
+                | Format::Ele
+                | Format::Face
+                | Format::Edge
+                | Format::Medit
+                | Format::Vtk
+                | Format::Vtu
+                | Format::Msh
+                | Format::Msh2
+        )
     }
 
     /// The files that a mesh in this format consists of, by format; empty if the format holds no mesh.
@@ -273,6 +287,18 @@ pub fn read_mesh3(
                 }
             }
         }
+        Format::Medit => match column {
+            None => parse_medit(bytes),
+            Some(_) => Err(ReadError {
+                part: ".mesh",
+                problem: "the format has no weights".into(),
+                fix: "use .vtu, .vtk, .msh or .node for weighted points".into(),
+                ..ReadError::default()
+            }),
+        },
+        Format::Vtk => parse_vtk(bytes, column),
+        Format::Vtu => parse_vtu3(bytes, column),
+        Format::Msh | Format::Msh2 => parse_msh3(bytes, column),
         _ => return None,
     })
 }
@@ -286,6 +312,8 @@ pub fn read_any_mesh(
     mut companion: impl FnMut(Format) -> Option<Vec<u8>>,
 ) -> Option<Result<AnyMesh, ReadError>> {
     let spatial = match format {
+        Format::Vtu => return Some(parse_any_vtu(bytes, column)),
+        Format::Msh | Format::Msh2 => return Some(parse_any_msh(bytes, column)),
         Format::Node => node_is_spatial(bytes),
         Format::Ele | Format::Edge | Format::Face => companion(Format::Node).is_some_and(|node| node_is_spatial(&node)),
         _ => !format.reads_mesh(),

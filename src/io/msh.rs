@@ -1,21 +1,55 @@
-//! Reads Gmsh's `.msh`, versions 2.2 and 4.1, ASCII (Gmsh reference manual, section "MSH file format").
+//! Reads Gmsh's `.msh`, versions 2.2 and 4.1, ASCII (Gmsh reference manual, section "MSH file format"), as a mesh of the plane or of space.
 //!
-//! Lines of the file's mesh become constrained edges, their physical tag the marker; the physical tag of a triangle becomes its region
-//! attribute. A physical name `marker m` or `region r`, as our writer gives it, takes the place of its tag, and `mesh` is no region. Elements come in ascending order of
-//! their tags. Choice 1: sections that say nothing about the mesh are skipped. Choice 2: elements other than points, lines and triangles
-//! are refused.
+//! In the plane, lines become constrained edges, their physical tag the marker; the physical tag of a triangle becomes its region
+//! attribute. In space, lines and triangles carry markers and tetrahedra regions. A physical name `marker m` or `region r`, as our writers give it, takes
+//! the place of its tag, and `mesh` is no region. Elements come in ascending order of their tags.
+//! Choice 1: sections that say nothing about the mesh are skipped; of `$NodeData` only weights are taken. Choice 2: other elements than points, lines, triangles
+//! and (in space) tetrahedra are refused, of those of second order the corners are taken (in space).
 
-use super::flat::Flat;
+use super::flat::{FIX, Flat};
 use super::foreign::{ForeignEdge, ForeignMesh};
+use super::grid::{Value, take_weights, weight_array};
 use super::rows::{Element, Row, Rows};
-use super::{ReadError, error::shown};
-use crate::model::{Point2, VertexId};
+use super::{AnyMesh, Column, ForeignMesh3, ForeignTriangle, ReadError, error::shown};
+use crate::model::{Point3, VertexId};
 use std::collections::BTreeMap;
 
 /// Reads a `.msh` file as a planar mesh.
 ///
 /// Errors: the first fault; binary files, other versions, elements of higher order and vertices off one plane z = constant are faults.
 pub fn parse_msh(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
+    read(bytes, "", Want::Plane)?.into_plane()
+}
+
+/// Reads a `.msh` file as a mesh of space; `column` names the view of weights of the nodes (without it `weight`, if there is one).
+///
+/// Errors: the first fault; binary files, other versions and elements other than points, lines, triangles and tetrahedra are faults.
+pub fn parse_msh3(bytes: &[u8], column: Option<&Column>) -> Result<ForeignMesh3, ReadError> {
+    read(bytes, weight_array(".msh", column)?, Want::Space)?.into_space(column)
+}
+
+/// Reads a `.msh` file as a mesh of space if it has a tetrahedron or weights are asked for, and as a planar one otherwise.
+pub(super) fn parse_any_msh(bytes: &[u8], column: Option<&Column>) -> Result<AnyMesh, ReadError> {
+    let file = read(bytes, weight_array(".msh", column)?, Want::Space)?;
+    if !file.tetrahedra.is_empty() || column.is_some() {
+        return file.into_space(column).map(AnyMesh::Space);
+    }
+    if file.second_order {
+        // Refused there, with its place.
+        return parse_msh(bytes).map(AnyMesh::Plane);
+    }
+    file.into_plane().map(AnyMesh::Plane)
+}
+
+/// Which elements are taken.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Want {
+    Plane,
+    Space,
+}
+
+/// Reads a file; `weights` is the name of the view that holds them.
+fn read<'a>(bytes: &'a [u8], weights: &str, want: Want) -> Result<File<'a>, ReadError> {
     // The second line of a binary file is still text; what follows is not, and would be blamed for the wrong reason.
     if let Some(e) = refuse_binary(bytes) {
         return Err(e);
@@ -36,7 +70,7 @@ pub fn parse_msh(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
             return Err(format.fault(format!("the version is {}", shown(other)), "save it as version 4.1 or 2.2"));
         }
     };
-    let mut file = File::new(rows, version);
+    let mut file = File::new(rows, version, want);
     file.section_end("MeshFormat")?;
     let mut seen = [false; 2];
     while let Some(mut row) = file.rows.next(Element::The("section")) {
@@ -52,6 +86,7 @@ pub fn parse_msh(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
                 seen[1] = true;
                 file.elements()?;
             }
+            Some("NodeData") if seen[0] => file.node_data(weights)?,
             Some("Nodes" | "Elements") => {
                 return Err(
                     row.fault(format!("{name} stands out of order or twice"), "one $Nodes comes before one $Elements")
@@ -70,7 +105,7 @@ pub fn parse_msh(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
             "the file is truncated or holds no mesh",
         ));
     }
-    Ok(file.finish())
+    Ok(file)
 }
 
 fn refuse_binary(bytes: &[u8]) -> Option<ReadError> {
@@ -97,8 +132,9 @@ enum Version {
 struct File<'a> {
     rows: Rows<'a>,
     version: Version,
-    mesh: ForeignMesh,
-    flat: Flat,
+    want: Want,
+    points: Vec<Point3>,
+    point_lines: Vec<u32>,
     /// Names of physical groups, by dimension and tag.
     names: BTreeMap<(i64, i64), &'a str>,
     /// First physical group of an entity, by dimension and tag (version 4).
@@ -107,6 +143,12 @@ struct File<'a> {
     ids: Vec<(i64, VertexId)>,
     lines: Vec<Item<2>>,
     triangles: Vec<Item<3>>,
+    tetrahedra: Vec<Item<4>>,
+    /// Nodes between corners, and whether there are any.
+    middle: Vec<VertexId>,
+    second_order: bool,
+    /// Weights by vertex, as far as given.
+    weights: Option<Vec<Value>>,
 }
 
 /// A line or a triangle.
@@ -118,17 +160,22 @@ struct Item<const N: usize> {
 }
 
 impl<'a> File<'a> {
-    fn new(rows: Rows<'a>, version: Version) -> File<'a> {
+    fn new(rows: Rows<'a>, version: Version, want: Want) -> File<'a> {
         File {
             rows,
             version,
-            mesh: ForeignMesh::default(),
-            flat: Flat::default(),
+            want,
+            points: Vec::new(),
+            point_lines: Vec::new(),
             names: BTreeMap::new(),
             physical: BTreeMap::new(),
             ids: Vec::new(),
             lines: Vec::new(),
             triangles: Vec::new(),
+            tetrahedra: Vec::new(),
+            middle: Vec::new(),
+            second_order: false,
+            weights: None,
         }
     }
 
@@ -229,11 +276,11 @@ impl<'a> File<'a> {
             return Err(row.fault(format!("the tag of the node is {tag}"), "tags are positive"));
         }
         // Fewer nodes than bytes, and `count` keeps each block below 2^31; a file with more blocks is refused here.
-        let id = u32::try_from(self.mesh.points.len()).map_err(|_| row.fault("too many nodes", ""))?;
+        let id = u32::try_from(self.points.len()).map_err(|_| row.fault("too many nodes", ""))?;
         self.ids.push((tag, VertexId(id)));
-        self.mesh.points.push(Point2::new(row.float("x")?, row.float("y")?));
-        self.mesh.lines.points.push(row.line);
-        self.flat.z(row)
+        self.points.push(Point3::new(row.float("x")?, row.float("y")?, row.float("z")?));
+        self.point_lines.push(row.line);
+        Ok(())
     }
 
     fn elements(&mut self) -> Result<(), ReadError> {
@@ -279,31 +326,114 @@ impl<'a> File<'a> {
         let line = row.line;
         match kind {
             1 => {
-                let corners = [self.id(&mut row)?, self.id(&mut row)?];
+                let corners = self.corners(&mut row)?;
                 self.lines.push(Item { tag, physical, corners, line });
             }
             2 => {
-                let corners = [self.id(&mut row)?, self.id(&mut row)?, self.id(&mut row)?];
+                let corners = self.corners(&mut row)?;
                 self.triangles.push(Item { tag, physical, corners, line });
             }
             15 => {
                 self.id(&mut row)?;
             }
-            _ => {
+            _ if self.want == Want::Plane => {
                 return Err(row.fault(
                     format!("the type of the element is {kind}"),
                     "only points (15), lines (1) and triangles (2) are read here",
+                ));
+            }
+            8 => {
+                let corners = self.corners(&mut row)?;
+                self.lines.push(Item { tag, physical, corners, line });
+                self.between::<1>(&mut row)?;
+            }
+            9 => {
+                let corners = self.corners(&mut row)?;
+                self.triangles.push(Item { tag, physical, corners, line });
+                self.between::<3>(&mut row)?;
+            }
+            4 | 11 => {
+                let corners = self.corners(&mut row)?;
+                self.tetrahedra.push(Item { tag, physical, corners, line });
+                if kind == 11 {
+                    self.between::<6>(&mut row)?;
+                }
+            }
+            _ => {
+                return Err(row.fault(
+                    format!("the type of the element is {kind}"),
+                    "only points (15), lines (1, 8), triangles (2, 9) and tetrahedra (4, 11) are read here",
                 ));
             }
         }
         row.end()
     }
 
+    fn corners<const N: usize>(&self, row: &mut Row) -> Result<[VertexId; N], ReadError> {
+        let mut ids = [VertexId(0); N];
+        for id in &mut ids {
+            *id = self.id(row)?;
+        }
+        Ok(ids)
+    }
+
+    fn between<const N: usize>(&mut self, row: &mut Row) -> Result<(), ReadError> {
+        let ids = self.corners::<N>(row)?;
+        self.middle.extend(ids);
+        self.second_order = true;
+        Ok(())
+    }
+
     fn id(&self, row: &mut Row) -> Result<VertexId, ReadError> {
         let tag = row.integer("a node")?;
-        let at = self.ids.binary_search_by_key(&tag, |&(t, _)| t);
-        at.map(|i| self.ids[i].1)
-            .map_err(|_| row.fault(format!("there is no node {tag}"), "correct the element or add the node"))
+        let at = |i: usize| self.ids.get(i).filter(|(t, _)| *t == tag);
+        // Mostly the tags are consecutive.
+        let first = self.ids.first().map_or(0, |&(first, _)| first);
+        let near = usize::try_from(tag.saturating_sub(first)).ok().and_then(at);
+        let found = near.or_else(|| self.ids.binary_search_by_key(&tag, |&(t, _)| t).ok().and_then(at));
+        found
+            .map(|&(_, id)| id)
+            .ok_or_else(|| row.fault(format!("there is no node {tag}"), "correct the element or add the node"))
+    }
+
+    /// A view of the nodes: string, real and integer tags, each after its number, of which the first string is the name and the second and third
+    /// integers are the numbers of components and of nodes; then `node value...`.
+    fn node_data(&mut self, weights: &str) -> Result<(), ReadError> {
+        let mut name = "";
+        let mut integers = [0; 3];
+        for (k, what) in ["string tags", "real tags", "integer tags"].into_iter().enumerate() {
+            let mut head = self.rows.expect(Element::The(what))?;
+            let count = head.count("their number", 2, &self.rows)?;
+            for i in 0..count {
+                let mut row = self.rows.expect(Element::The(what))?;
+                match k {
+                    0 if i == 0 => name = row.remainder().trim_matches('"'),
+                    2 if i < 3 => integers[i] = row.integer("an integer tag")?,
+                    _ => {}
+                }
+            }
+        }
+        if name != weights || integers[1] != 1 {
+            return self.skip("NodeData");
+        }
+        if self.weights.is_some() {
+            let problem = "a second view of this name";
+            return Err(self.rows.fault(Element::The("weights"), problem, "keep one of them"));
+        }
+        let mut given: Vec<Option<Value>> = vec![None; self.points.len()];
+        for _ in 0..integers[2] {
+            let mut row = self.rows.expect(Element::The("weights"))?;
+            let id = self.id(&mut row)?;
+            given[id.index()] = Some((row.float("the weight")?, row.line));
+            row.end()?;
+        }
+        let found: Option<Vec<Value>> = given.iter().copied().collect();
+        if found.is_none() {
+            let problem = format!("only {} of {} nodes have one", given.iter().flatten().count(), given.len());
+            return Err(self.rows.fault(Element::The("weights"), &problem, "give every node its weight"));
+        }
+        self.weights = found;
+        self.section_end("NodeData")
     }
 
     /// The number that stands for a physical group: in its name if our writer gave it, else its tag.
@@ -312,27 +442,66 @@ impl<'a> File<'a> {
         name.and_then(|number| super::number::finite(number).ok()).unwrap_or(tag as f64)
     }
 
-    fn finish(mut self) -> ForeignMesh {
+    fn edges(&mut self) -> (Vec<ForeignEdge>, Vec<u32>) {
         self.lines.sort_by_key(|item| item.tag);
-        self.triangles.sort_by_key(|item| item.tag);
-        let mut mesh = std::mem::take(&mut self.mesh);
-        mesh.notes.extend(self.flat.note());
-        for item in &self.lines {
+        let edge = |item: &Item<2>| {
             // A float-to-integer cast saturates; physical tags and markers have 32 bits in any case.
             let marker = self.value(1, "marker ", item.physical) as i32;
-            mesh.edges.push(ForeignEdge { ends: item.corners, marker });
-            mesh.lines.edges.push(item.line);
+            (ForeignEdge { ends: item.corners, marker }, item.line)
+        };
+        self.lines.iter().map(edge).unzip()
+    }
+
+    /// The region attributes of the elements of a dimension, given their physical tags; none if all are in no group or in `mesh`.
+    fn regions(&self, dimension: i64, physical: impl Iterator<Item = i64> + Clone) -> Vec<f64> {
+        let mesh_only = |tag| self.names.get(&(dimension, tag)) == Some(&"mesh");
+        if physical.clone().all(|tag| tag == 0 || mesh_only(tag)) {
+            return Vec::new();
         }
-        let mesh_only = |tag| self.names.get(&(2, tag)) == Some(&"mesh");
-        let regions = self.triangles.iter().any(|item| item.physical != 0 && !mesh_only(item.physical));
-        for item in &self.triangles {
-            mesh.triangles.push(item.corners);
-            mesh.lines.triangles.push(item.line);
-            if regions {
-                mesh.triangle_attributes.push(self.value(2, "region ", item.physical));
-            }
+        physical.map(|tag| self.value(dimension, "region ", tag)).collect()
+    }
+
+    /// The tag of a vertex.
+    fn tag(&self, id: usize) -> i64 {
+        self.ids.iter().find(|(_, v)| v.index() == id).map_or(0, |&(tag, _)| tag)
+    }
+
+    fn into_plane(mut self) -> Result<ForeignMesh, ReadError> {
+        let mut mesh = ForeignMesh::default();
+        let mut flat = Flat::default();
+        for (id, (p, &line)) in self.points.iter().zip(&self.point_lines).enumerate() {
+            flat.check(p.z, line).map_err(|problem| {
+                let element = format!("node {}", self.tag(id));
+                ReadError { part: ".msh", line, element, problem, fix: FIX.into(), ..ReadError::default() }
+            })?;
+            mesh.points.push(p.truncate());
         }
-        mesh
+        mesh.notes.extend(flat.note());
+        (mesh.edges, mesh.lines.edges) = self.edges();
+        self.triangles.sort_by_key(|item| item.tag);
+        mesh.triangle_attributes = self.regions(2, self.triangles.iter().map(|item| item.physical));
+        (mesh.triangles, mesh.lines.triangles) = self.triangles.iter().map(|item| (item.corners, item.line)).unzip();
+        mesh.lines.points = self.point_lines;
+        Ok(mesh)
+    }
+
+    fn into_space(mut self, column: Option<&Column>) -> Result<ForeignMesh3, ReadError> {
+        let mut mesh = ForeignMesh3::default();
+        take_weights(".msh", self.weights.take(), column, &mut mesh)?;
+        (mesh.edges, mesh.lines.edges) = self.edges();
+        self.triangles.sort_by_key(|item| item.tag);
+        let triangle = |item: &Item<3>| {
+            let marker = self.value(2, "marker ", item.physical) as i32;
+            (ForeignTriangle { corners: item.corners, marker }, item.line)
+        };
+        (mesh.triangles, mesh.lines.triangles) = self.triangles.iter().map(triangle).unzip();
+        self.tetrahedra.sort_by_key(|item| item.tag);
+        mesh.tetrahedron_attributes = self.regions(3, self.tetrahedra.iter().map(|item| item.physical));
+        (mesh.tetrahedra, mesh.lines.tetrahedra) = self.tetrahedra.iter().map(|item| (item.corners, item.line)).unzip();
+        mesh.points = self.points;
+        mesh.lines.points = self.point_lines;
+        mesh.drop_middle_nodes(&self.middle);
+        Ok(mesh)
     }
 }
 

@@ -269,3 +269,82 @@ impl<'a> Row<'a> {
         }
     }
 }
+
+/// The fields of a text file in order, whatever lines they stand on: for formats that care about words only.
+pub(super) struct Tokens<'a> {
+    rows: Rows<'a>,
+    row: Option<Row<'a>>,
+    /// What is being read, for messages.
+    pub(super) element: Element,
+}
+
+impl<'a> Tokens<'a> {
+    pub(super) fn new(rows: Rows<'a>) -> Tokens<'a> {
+        Tokens { rows, row: None, element: Element::The("header") }
+    }
+
+    /// The row of the next field.
+    fn here(&mut self, name: &str) -> Result<(&mut Row<'a>, &Rows<'a>), ReadError> {
+        if self.at_end() {
+            let problem = format!("the file ends before {name}");
+            return Err(self.rows.fault(self.element, &problem, "the file is truncated or declares too many elements"));
+        }
+        match &mut self.row {
+            Some(row) => {
+                row.element = self.element;
+                Ok((row, &self.rows))
+            }
+            // `at_end` has found one; still, this is what is wrong if it has not.
+            None => Err(self.rows.fault(self.element, "the file ends", "")),
+        }
+    }
+
+    /// Whether no field follows.
+    pub(super) fn at_end(&mut self) -> bool {
+        if !self.row.is_some_and(|row| row.has_more()) {
+            self.row = self.rows.next(self.element);
+        }
+        self.row.is_none()
+    }
+
+    /// The next field, which stays.
+    pub(super) fn peek(&mut self) -> Option<&'a str> {
+        if self.at_end() { None } else { self.row.and_then(|mut row| row.field()) }
+    }
+
+    /// The line of the field read last.
+    pub(super) fn line(&self) -> u32 {
+        self.rows.line
+    }
+
+    /// The next field as text.
+    pub(super) fn word(&mut self, name: &str) -> Result<&'a str, ReadError> {
+        self.here(name)?.0.word(name)
+    }
+
+    /// The next field as a finite number.
+    pub(super) fn float(&mut self, name: &str) -> Result<f64, ReadError> {
+        self.here(name)?.0.float(name)
+    }
+
+    /// The next field as an integer in `low..=high`.
+    pub(super) fn ranged(&mut self, name: &str, low: i64, high: i64) -> Result<i64, ReadError> {
+        self.here(name)?.0.ranged(name, low, high)
+    }
+
+    /// The next field as a marker.
+    pub(super) fn marker(&mut self) -> Result<i32, ReadError> {
+        self.here("marker")?.0.marker()
+    }
+
+    /// The next field as a number of elements, see `Row::count`.
+    pub(super) fn count(&mut self, name: &str, bytes: usize) -> Result<usize, ReadError> {
+        let (row, rows) = self.here(name)?;
+        row.count(name, bytes, rows)
+    }
+
+    /// An error about the line of the field read last.
+    pub(super) fn fault(&self, problem: &str, fix: &str) -> ReadError {
+        self.rows.fault(self.element, problem, fix)
+    }
+}

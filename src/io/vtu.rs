@@ -1,29 +1,60 @@
-//! Reads VTK XML unstructured grids (`.vtu`): triangles and lines of one piece.
+//! Reads VTK XML unstructured grids (`.vtu`) of one piece: triangles and lines in the plane, or tetrahedra, triangles and lines in space.
 //!
 //! Arrays may be ASCII, inline base64, or appended (raw or base64); compressed ones are refused by name. Of the data only what our
-//! writer gives is taken: `marker` and `attribute_k` of points, `marker` and `region` of cells (`gmsh:physical` stands in for either).
+//! writers give is taken: `marker` and `attribute_k` of points, `weight` in space, `marker` and `region` of cells (`gmsh:physical` stands in for either).
 
 use super::flat::{FIX, Flat};
 use super::foreign::{ForeignEdge, ForeignMesh};
+use super::grid::{Arrays, Cells, STAND_INS, Value, mesh_of_space, weight_array};
 use super::rows::{MOST_ELEMENTS, clipped, text};
-use super::scalar::{Scalar, index, whole};
+use super::scalar::{Scalar, whole};
 use super::xml::{Tag, TagKind, Tags};
-use super::{ReadError, error::shown, number};
-use crate::model::{Point2, VertexId};
+use super::{AnyMesh, Column, ForeignMesh3, ReadError, error::shown, number};
+use crate::model::Point2;
 
 /// Reads a `.vtu` file as a planar mesh.
 ///
 /// Errors: the first fault; cells other than vertices, lines and triangles and vertices off one plane z = constant are faults.
 pub fn parse_vtu(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
     let file = File::scan(bytes)?;
+    plane(&file, &read_cells(&file)?)
+}
+
+/// Reads a `.vtu` file as a mesh of space; `column` names the array of weights of the points (without it `weight`, if there is one).
+///
+/// Errors: the first fault; cells other than vertices, lines, triangles and tetrahedra are one.
+pub fn parse_vtu3(bytes: &[u8], column: Option<&Column>) -> Result<ForeignMesh3, ReadError> {
+    let file = File::scan(bytes)?;
+    space(&file, &read_cells(&file)?, column)
+}
+
+/// Reads a `.vtu` file as a mesh of space if it has a tetrahedron or weights are asked for, and as a planar one otherwise.
+pub(super) fn parse_any_vtu(bytes: &[u8], column: Option<&Column>) -> Result<AnyMesh, ReadError> {
+    let file = File::scan(bytes)?;
+    let cells = read_cells(&file)?;
+    if cells.have_tetrahedra() || column.is_some() {
+        return space(&file, &cells, column).map(AnyMesh::Space);
+    }
+    plane(&file, &cells).map(AnyMesh::Plane)
+}
+
+fn plane(file: &File, all: &Cells) -> Result<ForeignMesh, ReadError> {
     let mut mesh = ForeignMesh::default();
-    points(&file, &mut mesh)?;
-    cells(&file, &mut mesh)?;
+    points(file, &mut mesh)?;
+    cells(file, all, &mut mesh)?;
     Ok(mesh)
 }
 
-/// A number of an array with its line, 0 in binary arrays.
-type Value = (f64, u32);
+fn space(file: &File, cells: &Cells, column: Option<&Column>) -> Result<ForeignMesh3, ReadError> {
+    let points = file.values("Points", "", 3, Some(file.points))?;
+    let arrays = Arrays {
+        point_markers: file.perhaps("PointData", "marker", file.points)?,
+        weights: file.perhaps("PointData", weight_array(".vtu", column)?, file.points)?,
+        cell_markers: file.of_cells("marker")?,
+        regions: file.of_cells("region")?,
+    };
+    mesh_of_space(".vtu", &points, cells, arrays, column)
+}
 
 /// The arrays of a file, not yet decoded.
 struct File<'a> {
@@ -124,6 +155,13 @@ impl<'a> File<'a> {
     /// The values of an array that may be missing.
     fn perhaps(&self, section: &str, name: &str, count: usize) -> Result<Option<Vec<Value>>, ReadError> {
         self.array(section, name).map(|tag| self.decode(tag, 1, Some(count))).transpose()
+    }
+
+    /// An array of the cells, or what stands in for it.
+    fn of_cells(&self, name: &str) -> Result<Option<Vec<Value>>, ReadError> {
+        let names = [&[name], &STAND_INS[..]].concat();
+        let found = names.into_iter().find(|name| self.array("CellData", name).is_some());
+        Ok(found.map(|name| self.perhaps("CellData", name, self.cells)).transpose()?.flatten())
     }
 
     fn decode(&self, tag: &Tag, per: usize, count: Option<usize>) -> Result<Vec<Value>, ReadError> {
@@ -301,56 +339,34 @@ fn points(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
     Ok(())
 }
 
-fn cells(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
-    let connectivity = file.values("Cells", "connectivity", 1, None)?;
-    let offsets = file.values("Cells", "offsets", 1, Some(file.cells))?;
-    let types = file.values("Cells", "types", 1, Some(file.cells))?;
-    let physical = file.perhaps("CellData", "gmsh:physical", file.cells)?;
-    let markers = file.perhaps("CellData", "marker", file.cells)?.or_else(|| physical.clone());
-    let regions = file.perhaps("CellData", "region", file.cells)?.or(physical);
+fn read_cells(file: &File) -> Result<Cells, ReadError> {
+    Ok(Cells {
+        connectivity: file.values("Cells", "connectivity", 1, None)?,
+        offsets: file.values("Cells", "offsets", 1, Some(file.cells))?,
+        types: file.values("Cells", "types", 1, Some(file.cells))?,
+    })
+}
+
+fn cells(file: &File, cells: &Cells, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
+    let markers = file.of_cells("marker")?;
+    let regions = file.of_cells("region")?;
     let of = |values: &Option<Vec<Value>>, cell: usize| values.as_ref().map(|v| v[cell].0);
-    let mut from = 0;
-    for cell in 0..file.cells {
-        let bad = |problem: String, fix: &str| {
-            let line = connectivity.get(from).map_or(0, |&(_, line)| line);
-            let element = format!("cell {cell}");
-            ReadError { part: ".vtu", line, element, problem, fix: fix.into(), ..ReadError::default() }
-        };
-        let end = index(offsets[cell].0, connectivity.len() + 1).filter(|&end| end >= from);
-        let Some(end) = end else {
-            return Err(bad(
-                format!("its offset is {:?}", offsets[cell].0),
-                "offsets ascend up to the length of connectivity",
-            ));
-        };
-        let mut corners = Vec::with_capacity(3);
-        for &(x, line) in connectivity[from..end].iter().take(4) {
-            let id = index(x, file.points);
-            let id = id.ok_or_else(|| ReadError {
-                line,
-                ..bad(format!("there is no vertex {x:?}"), "vertices are numbered from 0")
-            })?;
-            // Counts are below 2^31.
-            corners.push(VertexId(id as u32));
-        }
-        let line = connectivity.get(from).map_or(0, |&(_, line)| line);
-        match (types[cell].0 as i64, &corners[..]) {
+    let wanted = "only vertices (1), lines (3) and triangles (5) are read here";
+    cells.each(".vtu", file.points, wanted, |cell| {
+        match (cell.kind, cell.nodes) {
             (5, &[a, b, c]) => {
                 mesh.triangles.push([a, b, c]);
-                mesh.lines.triangles.push(line);
-                mesh.triangle_attributes.extend(of(&regions, cell));
+                mesh.lines.triangles.push(cell.line);
+                mesh.triangle_attributes.extend(of(&regions, cell.number));
             }
             (3, &[a, b]) => {
-                mesh.edges.push(ForeignEdge { ends: [a, b], marker: of(&markers, cell).map_or(0, |x| x as i32) });
-                mesh.lines.edges.push(line);
+                let marker = of(&markers, cell.number).map_or(0, |x| x as i32);
+                mesh.edges.push(ForeignEdge { ends: [a, b], marker });
+                mesh.lines.edges.push(cell.line);
             }
             (1, [_]) => {}
-            (kind, _) => {
-                let problem = format!("its type is {kind} and it has {} corners", end - from);
-                return Err(bad(problem, "only vertices (1), lines (3) and triangles (5) are read here"));
-            }
+            _ => return false,
         }
-        from = end;
-    }
-    Ok(())
+        true
+    })
 }
