@@ -1,7 +1,7 @@
 //! A tetrahedral mesh as some program wrote it, with nothing taken for granted but that its indices exist.
 
 use super::{ForeignEdge, Note, NoteKind};
-use crate::model::{Point3, Triangulation3, VertexId};
+use crate::model::{Point3, PointSet3, Triangulation3, VertexId};
 
 /// A mesh of space from a file. Coordinates are in the units of the file; elements stand as given, in any orientation, perhaps degenerate.
 ///
@@ -52,6 +52,34 @@ pub struct MeshLines3 {
 }
 
 impl ForeignMesh3 {
+    /// The points with weights and markers.
+    #[must_use]
+    pub fn point_set(&self) -> PointSet3 {
+        PointSet3 {
+            points: self.points.clone(),
+            weights: self.weights.clone(),
+            point_markers: self.point_markers.clone(),
+            lines: self.lines.points.clone(),
+        }
+    }
+
+    /// The facets that one tetrahedron has and no other, counterclockwise seen from outside if that tetrahedron is positively oriented, in ascending order of their
+    /// sorted corners.
+    #[must_use]
+    pub fn boundary(&self) -> Vec<[VertexId; 3]> {
+        let mut facets = Vec::with_capacity(4 * self.tetrahedra.len());
+        for &[a, b, c, d] in &self.tetrahedra {
+            for facet in [[b, c, d], [a, d, c], [a, b, d], [a, c, b]] {
+                let mut key = facet;
+                key.sort_unstable();
+                facets.push((key, facet));
+            }
+        }
+        facets.sort_unstable();
+        let alone = facets.chunk_by(|f, g| f.0 == g.0).filter(|same| same.len() == 1);
+        alone.map(|same| same[0].1).collect()
+    }
+
     /// Leaves out the points that are nodes of second-order elements and corners of none, of which `middle` names each at least once.
     pub(super) fn drop_middle_nodes(&mut self, middle: &[VertexId]) {
         let mut keep = vec![true; self.points.len()];

@@ -7,7 +7,7 @@ use super::{Column, ForeignMesh, ForeignMesh3, Input, Input3, ReadError, TetgenF
 use super::{parse_csv, parse_medit, parse_msh3, parse_node3, parse_npy, parse_off3, parse_ply, parse_tetgen};
 use super::{parse_geojson, parse_msh, parse_node, parse_node_ele, parse_off, parse_poly, parse_vtu, parse_wkt};
 use super::{parse_vtk, parse_vtu3, parse_xyz};
-use crate::model::{Mesh2, Pslg};
+use crate::model::{Mesh2, PointSet3, Pslg, Triangulation3};
 use std::path::Path;
 
 /// A file format.
@@ -126,6 +126,28 @@ impl Format {
         )
     }
 
+    /// Whether points of space are written to it.
+    pub fn holds_points3(self) -> bool {
+        self.reads_points3()
+    }
+
+    /// The files that a mesh of space in this format consists of, by format; empty if the format holds no such mesh. `.face` and `.edge` stand beside `.ele` only
+    /// where there are triangles or edges, and `.ele` only where there are tetrahedra or neither of them.
+    pub fn files_of_mesh3(self, mesh: &ForeignMesh3) -> Vec<Format> {
+        match self {
+            Format::Node | Format::Ele | Format::Face | Format::Edge => {
+                let (faces, edges) = (!mesh.triangles.is_empty(), !mesh.edges.is_empty());
+                let mut files = vec![Format::Node];
+                files.extend((!mesh.tetrahedra.is_empty() || !(faces || edges)).then_some(Format::Ele));
+                files.extend(faces.then_some(Format::Face));
+                files.extend(edges.then_some(Format::Edge));
+                files
+            }
+            Format::Medit | Format::Msh | Format::Msh2 | Format::Vtu | Format::Vtk | Format::Off => vec![self],
+            _ => Vec::new(),
+        }
+    }
+
     /// The files that a mesh in this format consists of, by format; empty if the format holds no mesh.
     ///
     /// Vertices, triangles and subsegments of Triangle stand in files of their own, so that `.node` alone would be no mesh.
@@ -142,6 +164,46 @@ impl Format {
             _ => &[],
         }
     }
+}
+
+/// The bytes of points of space as a file; nothing if the format holds none. `.off` has no place for weights, and only `.node`, `.csv` and `.ply` have one for markers.
+pub fn write_points3(set: &PointSet3, format: Format) -> Option<Vec<u8>> {
+    Some(match format {
+        Format::Node => write::points::node3(set),
+        Format::Xyz => write::points::xyz(set),
+        Format::Csv => write::points::csv(set),
+        Format::Npy => write::points::npy(set),
+        Format::Ply => write::points::ply(set),
+        Format::Off => write::points::off3(&set.points, [].iter()),
+        _ => return None,
+    })
+}
+
+/// The bytes of one file of a mesh of space; nothing if the format holds none.
+///
+/// `.off` holds triangles only: those of the mesh, or the boundary of its tetrahedra if it lists none. `.mesh` has no place for weights, `.off` for nothing but coordinates and triangles.
+pub fn write_mesh3(mesh: &ForeignMesh3, format: Format) -> Option<Vec<u8>> {
+    Some(match format {
+        Format::Node => write::points::node3(&mesh.point_set()),
+        Format::Ele => write::tetgen::ele3(mesh),
+        Format::Face => write::tetgen::face(mesh),
+        Format::Edge => write::tetgen::edge3(mesh),
+        Format::Medit => write::medit(mesh),
+        Format::Msh => write::msh3(mesh, write::MshVersion::V41),
+        Format::Msh2 => write::msh3(mesh, write::MshVersion::V22),
+        Format::Vtu => write::vtu3(mesh),
+        Format::Vtk => write::vtk(mesh),
+        Format::Off if mesh.triangles.is_empty() => write::points::off3(&mesh.points, mesh.boundary().iter()),
+        Format::Off => write::points::off3(&mesh.points, mesh.triangles.iter().map(|t| &t.corners)),
+        _ => return None,
+    })
+}
+
+/// The bytes of one file of a triangulation of points in space: its simplices as elements of their dimension, as `write_mesh3` writes them.
+///
+/// The convex hull is what `.off` shows of tetrahedra. Which points are hidden or duplicates is not told: no simplex has them.
+pub fn write_triangulation3(triangulation: &Triangulation3, format: Format) -> Option<Vec<u8>> {
+    write_mesh3(&ForeignMesh3::from(triangulation), format)
 }
 
 /// The bytes of one file of a mesh; nothing if the format holds no mesh. Holes and regions of the domain go into `.poly`.

@@ -38,6 +38,7 @@ pub use foreign::{ForeignEdge, ForeignMesh, MeshLines};
 pub use foreign3::{ForeignMesh3, ForeignTriangle, MeshLines3};
 pub use format::{
     AnyMesh, Format, point_dimension, read_any_mesh, read_mesh, read_mesh3, read_points3, read_pslg, write_mesh,
+    write_mesh3, write_points3, write_triangulation3,
 };
 pub use geojson::parse_geojson;
 pub use input::{Input, Note, NoteKind};

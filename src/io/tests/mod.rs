@@ -4,6 +4,7 @@ mod geometry;
 mod meshes;
 mod picture;
 mod points;
+mod space;
 mod triangle;
 
 use crate::io::ReadError;

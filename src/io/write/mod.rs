@@ -3,13 +3,19 @@
 //! Floats are the shortest decimals that read back the same. A mesh whose triangles are not canonical (one read from elsewhere) is
 //! written as it stands.
 
+mod grid;
+mod medit;
 mod msh;
 mod off;
+pub mod points;
 mod svg;
+pub mod tetgen;
 pub mod triangle;
 mod vtu;
 
-pub use msh::{MshVersion, msh};
+pub use grid::{vtk, vtu3};
+pub use medit::medit;
+pub use msh::{MshVersion, msh, msh3};
 pub use off::off;
 pub use svg::svg;
 pub use vtu::vtu;

@@ -37,7 +37,7 @@ pub fn vtu(mesh: &Mesh2) -> Vec<u8> {
 }
 
 /// One array, a row for each item.
-fn array<T>(
+pub(super) fn array<T>(
     out: &mut Vec<u8>,
     kind: &str,
     name: &str,
