@@ -80,7 +80,7 @@ struct Search<'a> {
     /// Edges that the file names, the smaller end first, sorted.
     named: Vec<[u32; 2]>,
     border: Vec<u32>,
-    border_tree: Tree,
+    border_tree: Tree<Point2>,
     report: ClaimReport,
     constraints: Vec<bool>,
     deviation: f64,

@@ -31,6 +31,7 @@ mod exact;
 mod figures;
 mod isolated;
 mod report;
+pub mod space;
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -94,17 +94,55 @@ pub struct Witness {
     pub lines: Vec<u32>,
 }
 
+/// What has a name on the command line.
+pub trait Named: Copy {
+    /// That name.
+    fn name(self) -> &'static str;
+}
+
+impl Named for Claim {
+    fn name(self) -> &'static str {
+        Claim::name(self)
+    }
+}
+
+/// A place where a claim fails.
+pub trait Located {
+    /// One sentence.
+    fn message(&self) -> &str;
+
+    /// Lines of the file; may be empty.
+    fn lines(&self) -> &[u32];
+}
+
+impl Located for Witness {
+    fn message(&self) -> &str {
+        &self.message
+    }
+
+    fn lines(&self) -> &[u32] {
+        &self.lines
+    }
+}
+
+/// Lines of the elements, or else of the vertices, whose lines are known.
+pub(super) fn known_lines(elements: &[u32], of_elements: &[u32], vertices: &[u32], of_vertices: &[u32]) -> Vec<u32> {
+    let line = |lines: &[u32], i: &u32| lines.get(*i as usize).copied().filter(|&l| l > 0);
+    let lines: Vec<u32> = elements.iter().filter_map(|t| line(of_elements, t)).collect();
+    if lines.is_empty() { vertices.iter().filter_map(|v| line(of_vertices, v)).collect() } else { lines }
+}
+
 /// The report about one claim.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ClaimReport {
+pub struct ClaimReport<C = Claim, W = Witness> {
     /// The claim.
-    pub claim: Claim,
+    pub claim: C,
     /// The answer.
     pub verdict: Verdict,
     /// One sentence.
     pub message: String,
     /// The first witnesses.
-    pub witnesses: Vec<Witness>,
+    pub witnesses: Vec<W>,
     /// How many there are.
     pub violations: u64,
     /// Figures by name.
@@ -117,11 +155,6 @@ fn as_map<S: serde::Serializer>(figures: &[(&'static str, f64)], serializer: S) 
 }
 
 impl ClaimReport {
-    pub(super) fn new(claim: Claim) -> Self {
-        let (verdict, message) = (Verdict::Holds, String::new());
-        ClaimReport { claim, verdict, message, witnesses: Vec::new(), violations: 0, figures: Vec::new() }
-    }
-
     /// Counts a violation, and lists it if there is room.
     pub(super) fn violated(
         &mut self,
@@ -130,25 +163,31 @@ impl ClaimReport {
         triangles: &[u32],
         message: impl FnOnce() -> String,
     ) {
-        self.verdict = Verdict::Violated;
-        self.violations += 1;
-        if self.witnesses.len() >= LISTED_WITNESSES {
-            return;
-        }
         let point = |&v: &u32| subject.points.get(v as usize).map(|p| [p.x, p.y]);
-        let line = |lines: &[u32], i: &u32| lines.get(*i as usize).copied().filter(|&l| l > 0);
-        let mut lines: Vec<u32> = triangles.iter().filter_map(|t| line(subject.triangle_lines, t)).collect();
-        if lines.is_empty() {
-            lines = vertices.iter().filter_map(|v| line(subject.point_lines, v)).collect();
-        }
-        self.witnesses.push(Witness {
+        self.count(|| Witness {
             message: message(),
             vertices: vertices.to_vec(),
             triangles: triangles.to_vec(),
             input: Vec::new(),
             coordinates: vertices.iter().filter_map(point).collect(),
-            lines,
+            lines: known_lines(triangles, subject.triangle_lines, vertices, subject.point_lines),
         });
+    }
+}
+
+impl<C, W> ClaimReport<C, W> {
+    pub(super) fn new(claim: C) -> Self {
+        let (verdict, message) = (Verdict::Holds, String::new());
+        ClaimReport { claim, verdict, message, witnesses: Vec::new(), violations: 0, figures: Vec::new() }
+    }
+
+    /// Counts a violation, and lists it if there is room.
+    pub(super) fn count(&mut self, witness: impl FnOnce() -> W) {
+        self.verdict = Verdict::Violated;
+        self.violations += 1;
+        if self.witnesses.len() < LISTED_WITNESSES {
+            self.witnesses.push(witness());
+        }
     }
 
     /// Sets the message of a claim by whether it holds.
@@ -160,31 +199,31 @@ impl ClaimReport {
         self
     }
 
-    pub(super) fn unchecked(claim: Claim, message: &str) -> Self {
+    pub(super) fn unchecked(claim: C, message: &str) -> Self {
         ClaimReport { verdict: Verdict::Unchecked, message: message.into(), ..ClaimReport::new(claim) }
     }
 }
 
 /// The audit of a mesh.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Report {
+pub struct Report<C = Claim, W = Witness> {
     /// One report for each claim asked for, in that order.
-    pub claims: Vec<ClaimReport>,
+    pub claims: Vec<ClaimReport<C, W>>,
 }
 
-impl Report {
+impl<C: PartialEq, W> Report<C, W> {
     /// Whether no claim is violated.
     pub fn passed(&self) -> bool {
         self.claims.iter().all(|c| c.verdict != Verdict::Violated)
     }
 
     /// The report about a claim, if it was asked for.
-    pub fn claim(&self, claim: Claim) -> Option<&ClaimReport> {
+    pub fn claim(&self, claim: C) -> Option<&ClaimReport<C, W>> {
         self.claims.iter().find(|c| c.claim == claim)
     }
 }
 
-impl fmt::Display for Report {
+impl<C: Named, W: Located> fmt::Display for Report<C, W> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for c in &self.claims {
             let verdict = match c.verdict {
@@ -198,9 +237,9 @@ impl fmt::Display for Report {
                 writeln!(f, "{:24}{name} = {value}", "")?;
             }
             for w in &c.witnesses {
-                write!(f, "{:24}{}", "", w.message)?;
-                if !w.lines.is_empty() {
-                    write!(f, " ({})", listed("line", &w.lines, 8))?;
+                write!(f, "{:24}{}", "", w.message())?;
+                if !w.lines().is_empty() {
+                    write!(f, " ({})", listed("line", w.lines(), 8))?;
                 }
                 writeln!(f)?;
             }

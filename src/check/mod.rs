@@ -54,7 +54,7 @@ mod split;
 mod start;
 mod strict;
 mod surgery;
-mod value;
+pub(crate) mod value;
 mod verdict;
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::check::rational::Rational;
+use crate::check::scale::power_of_two;
 
 fn site(x: f64, y: f64, z: f64, weight: f64) -> WeightedPoint {
     WeightedPoint { at: Point3::new(x, y, z), weight }
@@ -56,13 +57,13 @@ fn signs_are_those_of_the_determinants() {
             let [a, b, c, d] = std::array::from_fn(|_| draw());
             let grid = |x: f64| (x * 4.0).floor() / 4.0;
             let on_sphere = |x: f64| if x < 0.5 { -0.5 } else { 0.5 };
-            let near = |x: f64, noise: f64| on_sphere(x) + (noise - 0.5) / 2f64.powi(20 + case % 35);
+            let near = |x: f64, noise: f64| on_sphere(x) + (noise - 0.5) / power_of_two(20 + case % 35);
             match case % 5 {
                 0 => site(a, b, c, 0.0),
                 1 => site(grid(a), grid(b), grid(c), 0.0),
                 2 => site(grid(a), grid(b), grid(c), grid(d)),
-                3 => site(near(a, b), near(b, c), near(c, a), d / 2f64.powi(50)),
-                _ => site(a / 2f64.powi(case % 300), b, c / 2f64.powi(case % 1000), d - 0.5),
+                3 => site(near(a, b), near(b, c), near(c, a), d / power_of_two(50)),
+                _ => site(a / power_of_two(case % 300), b, c / power_of_two(case % 1000), d - 0.5),
             }
         });
         let (t, q) = ([points[0], points[1], points[2], points[3]], points[4]);

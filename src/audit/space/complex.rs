@@ -1,0 +1,210 @@
+//! The mesh as a complex: cells turned positive, linked across facets; what of `valid` is local.
+
+use super::Subject;
+use super::report::{Claim, ClaimReport};
+use crate::audit::report::Verdict;
+use crate::check::space::glue::{self, BORDER, Glue, MOST_CELLS};
+use crate::check::space::predicates::{Corners, orient};
+use crate::model::{Point3, Sign, WeightedPoint};
+
+/// Most cells: twelve numbers for each, one for every edge of every facet, must fit 32 bits.
+const MOST: usize = MOST_CELLS / 3;
+
+/// The usable cells of a mesh and their links. A slot is `4 t + k`: the facet of cell t across from corner k.
+pub(super) struct Complex<'a> {
+    pub subject: &'a Subject<'a>,
+    /// The points, scaled by a power of two so that neither a coordinate nor a weight exceeds 1. Those that are not finite are at 0.
+    pub sites: Vec<WeightedPoint>,
+    /// Positive.
+    pub cells: Vec<[u32; 4]>,
+    /// Position of each in the file.
+    pub in_file: Vec<u32>,
+    /// Positions in the file of cells that are negative there.
+    pub negative: Vec<u32>,
+    /// The slot on the other side of each, or `BORDER`.
+    pub across: Vec<u32>,
+    /// Whether a cell has this vertex.
+    pub used: Vec<bool>,
+    /// A scaled coordinate of 1 stands for 2 to this power.
+    exponent: i32,
+    /// A vertex whose coordinates or weight scaling cannot keep.
+    pub unscalable: Option<u32>,
+}
+
+impl<'a> Complex<'a> {
+    /// Builds it, and answers the local part of `valid`.
+    pub fn new(subject: &'a Subject<'a>) -> (Self, ClaimReport) {
+        let mut report = ClaimReport::new(Claim::Valid);
+        let (sites, exponent, unscalable) = scaled(subject);
+        let mut complex = Complex {
+            subject,
+            used: vec![false; sites.len()],
+            sites,
+            cells: Vec::with_capacity(subject.cells.len()),
+            in_file: Vec::with_capacity(subject.cells.len()),
+            negative: Vec::new(),
+            across: Vec::new(),
+            exponent,
+            unscalable,
+        };
+        if subject.cells.len() > MOST {
+            return (complex, ClaimReport::unchecked(Claim::Valid, "there are more cells than can be numbered"));
+        }
+        for i in 0..subject.cells.len() {
+            complex.take(i as u32, &mut report);
+        }
+        complex.link(&mut report);
+        if complex.cells.is_empty() && report.verdict == Verdict::Holds {
+            report = ClaimReport::unchecked(Claim::Valid, "there is no cell");
+        }
+        (complex, report)
+    }
+
+    /// What a scaled coordinate of 1 stands for, for display.
+    pub fn unit(&self) -> f64 {
+        halves(self.exponent).iter().product()
+    }
+
+    /// The place of a vertex, scaled.
+    pub fn at(&self, v: u32) -> Point3 {
+        self.sites[v as usize].at
+    }
+
+    pub fn corners(&self, t: u32) -> Corners {
+        self.cells[t as usize].map(|v| self.sites[v as usize])
+    }
+
+    /// The corners of a facet, counterclockwise as seen from its cell.
+    pub fn facet(&self, slot: u32) -> [u32; 3] {
+        glue::facet(&self.cells, slot)
+    }
+
+    /// The corner across from a facet, in its cell.
+    pub fn apex(&self, slot: u32) -> u32 {
+        self.cells[(slot / 4) as usize][(slot % 4) as usize]
+    }
+
+    /// The slots on the border.
+    pub fn border(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.across.len() as u32).filter(|&s| self.across[s as usize] == BORDER)
+    }
+
+    /// The cell of a slot, as the file counts.
+    pub fn cell_in_file(&self, slot: u32) -> u32 {
+        self.in_file[(slot / 4) as usize]
+    }
+
+    /// Takes cell i of the file if it is proper, turned positive.
+    fn take(&mut self, i: u32, report: &mut ClaimReport) {
+        let subject = self.subject;
+        let mut cell = subject.cells[i as usize].map(|v| v.0);
+        if let Some(&v) = cell.iter().find(|&&v| v as usize >= self.sites.len()) {
+            report.violated(subject, &[], &[i], || format!("cell {i} refers to vertex {v}, which does not exist"));
+            return;
+        }
+        if let Some(&v) = cell.iter().find(|&&v| !is_finite(subject, v)) {
+            report.violated(subject, &[v], &[i], || format!("cell {i} has vertex {v}, which is not finite"));
+            return;
+        }
+        let [a, b, c, d] = cell.map(|v| self.at(v));
+        match orient(a, b, c, d) {
+            Sign::Positive => {}
+            Sign::Negative => {
+                self.negative.push(i);
+                cell.swap(2, 3);
+            }
+            Sign::Zero => {
+                let [a, b, c, d] = cell;
+                report.violated(subject, &cell, &[i], || {
+                    format!("cell {i} is degenerate: {a}, {b}, {c}, {d} lie in one plane")
+                });
+                return;
+            }
+        }
+        for v in cell {
+            self.used[v as usize] = true;
+        }
+        self.cells.push(cell);
+        self.in_file.push(i);
+    }
+
+    /// Links cells across their facets. Both cells at a facet must lie on different sides of it.
+    fn link(&mut self, report: &mut ClaimReport) {
+        let Glue { across, clashes } = glue::glue(&self.cells, self.sites.len());
+        self.across = across;
+        for slots in clashes {
+            let mut cells: Vec<u32> = slots.iter().map(|&s| self.cell_in_file(s)).collect();
+            cells.sort_unstable();
+            let facet @ [a, b, c] = self.facet(slots[0]);
+            let doubled = slots.windows(2).all(|pair| self.apex(pair[0]) == self.apex(pair[1]));
+            report.violated(self.subject, &facet, &cells, || match cells.len() {
+                _ if doubled => format!("cells {cells:?} have the same corners, facet {a}, {b}, {c} among them"),
+                2 => format!("cells {cells:?} lie on the same side of their common facet {a}, {b}, {c}"),
+                n => format!("facet {a}, {b}, {c} belongs to {n} cells: {cells:?}"),
+            });
+        }
+    }
+}
+
+/// Whether all cells are positive in the file.
+pub(super) fn orientation(complex: &Complex<'_>) -> ClaimReport {
+    let mut report = ClaimReport::new(Claim::Orientation);
+    for &t in &complex.negative {
+        let vertices = complex.subject.cells[t as usize].map(|v| v.0);
+        report.violated(complex.subject, &vertices, &[t], || format!("cell {t} {vertices:?} is negative"));
+    }
+    let all = !complex.negative.is_empty() && complex.negative.len() == complex.cells.len();
+    let mut report = report.conclude("every cell is positive");
+    if all {
+        report.message = "every cell is negative".into();
+    }
+    report
+}
+
+/// Whether all numbers of a point are finite.
+pub(super) fn is_finite(subject: &Subject<'_>, v: u32) -> bool {
+    subject.points[v as usize].is_finite() && subject.weights.get(v as usize).is_none_or(|w| w.is_finite())
+}
+
+/// The points over 2^e and the weights over 4^e, none above 1; e; and a finite point that loses bits by it.
+fn scaled(subject: &Subject<'_>) -> (Vec<WeightedPoint>, i32, Option<u32>) {
+    let finite = |x: f64| if x.is_finite() { x.abs() } else { 0.0 };
+    let largest = subject.points.iter().fold(0.0, |m: f64, p| m.max(finite(p.x)).max(finite(p.y)).max(finite(p.z)));
+    let heaviest = subject.weights.iter().fold(0.0, |m: f64, &w| m.max(finite(w)));
+    // The least e with 2^e above both the largest coordinate and the root of the largest weight.
+    let weight_exponent = if heaviest > 0.0 { (exponent(heaviest) + 1).div_euclid(2) } else { i32::MIN };
+    let e = exponent(largest).max(weight_exponent);
+    let [one, four] = [halves(-e), halves(-2 * e)];
+    let [back_one, back_four] = [halves(e), halves(2 * e)];
+    let times = |x: f64, powers: &[f64; 4]| powers.iter().fold(x, |x, power| x * power);
+    let mut unscalable = None;
+    let mut sites = Vec::with_capacity(subject.points.len());
+    for (v, &p) in subject.points.iter().enumerate() {
+        let weight = subject.weights.get(v).copied().unwrap_or(0.0);
+        if !is_finite(subject, v as u32) {
+            sites.push(WeightedPoint::default());
+            continue;
+        }
+        let site = WeightedPoint {
+            at: Point3::new(times(p.x, &one), times(p.y, &one), times(p.z, &one)),
+            weight: times(weight, &four),
+        };
+        let back = [times(site.at.x, &back_one), times(site.at.y, &back_one), times(site.at.z, &back_one)];
+        if unscalable.is_none() && (back != p.to_array() || times(site.weight, &back_four) != weight) {
+            unscalable = Some(v as u32);
+        }
+        sites.push(site);
+    }
+    (sites, e, unscalable)
+}
+
+/// The least e with x < 2^e, of a finite x >= 0; for 0 and subnormal x, that of the least normal number.
+fn exponent(x: f64) -> i32 {
+    ((x.to_bits() >> 52) as i32 - 1022).max(-1021)
+}
+
+/// 2^e as four factors, each and each partial product with 1 a normal number.
+fn halves(e: i32) -> [f64; 4] {
+    let part = |k: i32| (e + k).div_euclid(4);
+    [part(0), part(1), part(2), part(3)].map(|e| f64::from_bits(((e + 1023) as u64) << 52))
+}

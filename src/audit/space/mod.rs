@@ -1,0 +1,119 @@
+//! The audit of a tetrahedral mesh, whoever made it.
+//!
+//! Each claim is tested from its definition, exactly, with located witnesses where it fails; of the checker it takes numbers, predicates and the
+//! matching of facets, of the producer nothing. *The points* are those of the file; *sites* are points with weights.
+//!
+//! - `valid`: coordinates are finite, indices exist, no cell is degenerate, and any two cells meet in a common vertex, edge or facet, or not at
+//!   all. How: cells turned positive, no oriented facet belongs to two of them; the border is embedded (`border`, with the proof).
+//! - `orientation`: every cell a, b, c, d is positive in the file: d lies where a, b, c turn counterclockwise.
+//! - `delaunay`: no vertex of the mesh strictly inside the circumsphere of any cell, and no point of the file that is left out inside a cell.
+//! - `regular`: the same for orthospheres. A point that is left out may lie in a cell if it is hidden: not strictly inside the orthosphere.
+//! - `canonical`: as `regular`, ties decided by the one symbolic perturbation: the mesh is the only one of its kind.
+//! - `hull`: the cells fill the convex hull of the points, and each point is a vertex, at the place of one, or hidden.
+//! - `quality`: every cell has a circumradius below rho times its shortest edge; without a rho, figures are told.
+//! - `topology`: figures, told.
+//!
+//! The three claims of empty spheres are tested across every facet (`spheres`), which suffices where the cells fill a convex region; elsewhere
+//! the spheres at the border are searched as well, which suffices again (proof there). Points left out that lie in no cell are counted, and
+//! violate `hull` alone.
+//!
+//! A claim that rests on a violated `valid` is violated if a witness is found, else unchecked. Unchecked is also everything about coordinates of
+//! sizes so different that no scaling by a power of two holds them all, and the border of a mesh whose facets' boxes overlap beyond all
+//! measure (`border::PAIRS`).
+//!
+//! Time: linear in the cells for all claims of a mesh that fills a star-shaped region (a convex one is) and leaves no point out. Otherwise a
+//! tree of boxes over the border, the vertices or the points left out adds a logarithm.
+
+mod border;
+mod complex;
+mod figures;
+mod hull;
+mod isolated;
+mod meet;
+mod report;
+mod spheres;
+#[cfg(test)]
+mod tests;
+
+pub use report::{Claim, ClaimReport, Report, Witness};
+
+use super::report::Verdict;
+use crate::model::{Point3, VertexId};
+use border::Border;
+use complex::Complex;
+use isolated::Isolated;
+
+/// A mesh to be audited, as found in a file. Indices may be wrong, numbers not finite.
+#[derive(Clone, Debug, Default)]
+pub struct Subject<'a> {
+    /// Coordinates in the units of the file.
+    pub points: &'a [Point3],
+    /// Weight of each point, in squared units; empty: all are 0.
+    pub weights: &'a [f64],
+    /// Corners of each cell.
+    pub cells: &'a [[VertexId; 4]],
+    /// Line of each point, one-based; may be empty.
+    pub point_lines: &'a [u32],
+    /// Line of each cell, one-based; may be empty.
+    pub cell_lines: &'a [u32],
+}
+
+/// What is to be tested.
+#[derive(Clone, Debug)]
+pub struct Options<'a> {
+    /// The claims, each once.
+    pub claims: &'a [Claim],
+    /// The quality claimed: every cell has a circumradius below this many times its shortest edge.
+    pub radius_edge: Option<f64>,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Options { claims: &Claim::ALL, radius_edge: None }
+    }
+}
+
+/// Audits a mesh.
+pub fn audit(subject: &Subject<'_>, options: &Options<'_>) -> Report {
+    let asked = |claims: &[Claim]| claims.iter().any(|c| options.claims.contains(c));
+    let (complex, mut valid) = Complex::new(subject);
+    // On a complex with faults the border means nothing.
+    let border = (valid.verdict == Verdict::Holds && !asked_only(options, &[Claim::Orientation, Claim::Quality]))
+        .then(|| Border::examine(&complex, &mut valid));
+    let sound = valid.verdict == Verdict::Holds;
+    let valid = valid.conclude("any two cells meet in a common vertex, edge or facet, or not at all");
+    let isolated = if asked(&[Claim::Delaunay, Claim::Regular, Claim::Canonical, Claim::Hull]) {
+        Isolated::of(&complex)
+    } else {
+        Isolated::default()
+    };
+    let mut claims = Vec::new();
+    for &claim in options.claims {
+        let border = border.as_ref();
+        let mut report = match claim {
+            Claim::Valid => valid.clone(),
+            Claim::Orientation => complex::orientation(&complex),
+            Claim::Delaunay | Claim::Regular | Claim::Canonical => spheres::empty(&complex, claim, border, &isolated),
+            Claim::Hull => hull::hull(&complex, border, &isolated),
+            Claim::Quality => figures::quality(&complex, options.radius_edge),
+            Claim::Topology => figures::topology(&complex, border),
+        };
+        let rests_on_valid = !matches!(claim, Claim::Valid | Claim::Orientation | Claim::Quality);
+        if !sound && rests_on_valid && report.verdict == Verdict::Holds {
+            report.verdict = Verdict::Unchecked;
+            report.message = format!("{}; but the mesh is not known to be a valid complex", report.message);
+        }
+        if let (Some(v), true) = (complex.unscalable, report.verdict != Verdict::Told) {
+            report = ClaimReport::unchecked(
+                claim,
+                &format!("vertex {v} and the largest coordinate or weight are too far apart in size for doubles"),
+            );
+        }
+        claims.push(report);
+    }
+    Report { claims }
+}
+
+fn asked_only(options: &Options<'_>, claims: &[Claim]) -> bool {
+    options.claims.iter().all(|c| claims.contains(c))
+}
