@@ -28,14 +28,7 @@ impl Bounded {
     /// The sign, if the bound allows to tell it. Overflow makes the bound infinite or NaN, and the comparison false.
     #[inline]
     pub fn sign(self) -> Option<Sign> {
-        let bound = self.err * SLACK;
-        if self.value > bound {
-            Some(Sign::Positive)
-        } else if self.value < -bound {
-            Some(Sign::Negative)
-        } else {
-            None
-        }
+        sign_beyond(self.value, self.err * SLACK)
     }
 }
 
@@ -200,13 +193,9 @@ pub(super) fn is_skinny([a, b, c]: Corners, rho2: f64) -> Option<bool> {
     }
 }
 
-#[inline]
+/// The sign of a value known to within `bound`; NaN and infinities of both decline. One branch: which sign it is, is for the caller
+/// to branch on.
+#[inline(always)]
 pub(super) fn sign_beyond(value: f64, bound: f64) -> Option<Sign> {
-    if value > bound {
-        Some(Sign::Positive)
-    } else if value < -bound {
-        Some(Sign::Negative)
-    } else {
-        None
-    }
+    if value.abs() > bound { Some(if value > 0.0 { Sign::Positive } else { Sign::Negative }) } else { None }
 }

@@ -118,7 +118,11 @@ pub trait Kernel3: Kernel {
         match Self::power_side(t, q) {
             Sign::Positive => true,
             Sign::Negative => false,
-            Sign::Zero => super::perturb3::cospherical_in_conflict::<Self>(t.map(|p| p.at), q.at),
+            Sign::Zero => {
+                // Copies, so that the corners themselves can stay in registers: see `copied` in the fast kernel.
+                let copied = |p: WeightedPoint| Point3::new(p.at.x, p.at.y, p.at.z);
+                super::perturb3::cospherical_in_conflict::<Self>(t.map(copied), copied(q))
+            }
         }
     }
 }

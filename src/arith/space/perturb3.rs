@@ -18,20 +18,39 @@ pub fn lexicographic3(a: Point3, b: Point3) -> Ordering {
 /// place decides unless it is zero. Those orientations are the barycentric coordinates of q up to sign: at most two vanish (q is no
 /// corner), so at most three turns.
 #[cold]
+#[inline(never)]
 pub fn cospherical_in_conflict<K: Kernel3>(t: Corners3, q: Point3) -> bool {
-    let mut by_rank = [(t[0], 0), (t[1], 1), (t[2], 2), (t[3], 3), (q, 4)];
-    by_rank.sort_by(|a, b| lexicographic3(b.0, a.0));
-    for (_, k) in by_rank {
-        if k == 4 {
+    let places = [t[0], t[1], t[2], t[3], q];
+    let mut left = [true; 5];
+    loop {
+        let mut largest = 4;
+        for k in 0..4 {
+            if left[k] && is_larger(places[k], places[largest]) {
+                largest = k;
+            }
+        }
+        if largest == 4 {
             return false;
         }
+        left[largest] = false;
         let mut replaced = t;
-        replaced[k] = q;
+        replaced[largest] = q;
         match K::orient3d(replaced[0], replaced[1], replaced[2], replaced[3]) {
             Sign::Positive => return true,
             Sign::Negative => return false,
             Sign::Zero => {}
         }
     }
-    false
+}
+
+/// a > b lexicographically.
+#[inline]
+fn is_larger(a: Point3, b: Point3) -> bool {
+    if a.x != b.x {
+        a.x > b.x
+    } else if a.y != b.y {
+        a.y > b.y
+    } else {
+        a.z > b.z
+    }
 }
