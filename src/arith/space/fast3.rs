@@ -105,6 +105,11 @@ impl Kernel3 for FastKernel {
         }
     }
 
+    #[inline(always)]
+    fn power_side_estimate(t: WeightedCorners, q: WeightedPoint) -> (f64, f64) {
+        filter3::power_side_estimate(t, q)
+    }
+
     fn power_side_of_triangle(t: [WeightedPoint; 3], q: WeightedPoint) -> Sign {
         sign_of!(poly3::power_side_of_triangle(t, q))
     }

@@ -41,18 +41,25 @@ pub(super) fn in_sphere(t: Corners3, q: Point3) -> Option<Sign> {
 }
 
 /// Position of q against the orthoball of t where the filter can tell.
+#[inline(always)]
+pub(super) fn power_side(t: WeightedCorners, q: WeightedPoint) -> Option<Sign> {
+    let (det, bound) = power_side_estimate(t, q);
+    sign_beyond(det, bound)
+}
+
+/// The determinant of the power test and a bound of its error.
 ///
 /// As for `in_sphere`, a lift being |p - q|^2 + (w_q - w_p): one more rounded difference and one more sum instead of a difference and a
 /// product at least; its terms sum to at most L + W, W the largest difference of weights. 17 factors at most: 8.73e-15 (L + W) L^1.5.
 #[inline(always)]
-pub(super) fn power_side(t: WeightedCorners, q: WeightedPoint) -> Option<Sign> {
+pub(super) fn power_side_estimate(t: WeightedCorners, q: WeightedPoint) -> (f64, f64) {
     const BOUND: f64 = 8.8e-15;
     let (m, l) = minors_and_lifts(t.map(|p| p.at), q.at);
     let w = t.map(|p| q.weight - p.weight);
     let det = ((l[0] + w[0]) * m[0] + (l[1] + w[1]) * m[1]) + ((l[2] + w[2]) * m[2] + (l[3] + w[3]) * m[3]);
     let largest = larger(larger(l[0], l[1]), larger(l[2], l[3]));
     let heaviest = larger(larger(w[0].abs(), w[1].abs()), larger(w[2].abs(), w[3].abs()));
-    sign_beyond(det, BOUND * ((largest + heaviest) * largest * largest.sqrt()))
+    (det, BOUND * ((largest + heaviest) * largest * largest.sqrt()))
 }
 
 /// The signed triple products of the other three corners and the squared distance from q, for each corner: the determinant is the sum of

@@ -111,6 +111,14 @@ pub trait Kernel3: Kernel {
     /// |ab| times s, rounded away from zero to 26 significant bits.
     fn short_radius_above(a: Point3, b: Point3, s: f64) -> f64;
 
+    /// A quick estimate of a number with the sign of `power_side`, and a bound of its error: where the value exceeds the bound or
+    /// falls below its negative, that is the sign. For many tests in a row without a branch; decides nothing if an argument is NaN.
+    #[inline(always)]
+    fn power_side_estimate(t: WeightedCorners, q: WeightedPoint) -> (f64, f64) {
+        let _ = (t, q);
+        (0.0, 0.0)
+    }
+
     /// Whether q is in conflict with the positively oriented tetrahedron t under the one tie-break: strictly nearer than its orthoball, or exactly on it
     /// and inside after the perturbation of `perturb3`. The place of q differs from those of the corners, or its weight does.
     #[inline(always)]

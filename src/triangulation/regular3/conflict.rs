@@ -32,36 +32,83 @@ impl<K: Kernel3> Regular3<K> {
         }
     }
 
-    /// Collects the conflict zone of q from a cell of it, breadth first, and the zone's boundary. Each cell is tested once.
+    /// Collects the conflict zone of q from a cell of it, and the zone's boundary. Each cell is tested once.
+    ///
+    /// The flood goes by rings: the neighbors of one ring of the zone are collected, tested all together, and those in conflict are the next
+    /// ring. Tests in a row hide each other's latency, and no branch waits for one.
+    #[inline(never)]
     pub(super) fn flood(&mut self, root: u32, q: WeightedPoint, s: &mut Scratch) {
         s.zone.clear();
-        s.rim.clear();
-        s.has_ghosts = false;
         s.zone.push(root);
         self.marks[root as usize] = INSIDE;
-        let mut next = 0;
-        while let Some(&c) = s.zone.get(next) {
-            next += 1;
+        let mut ring = 0;
+        while ring < s.zone.len() {
+            let end = s.zone.len();
+            self.collect_candidates(&s.zone[ring..], &mut s.candidates);
+            self.test_candidates(q, s);
+            ring = end;
+        }
+        self.collect_rim(s);
+    }
+
+    /// The cells beyond the facets of a ring that were not met before; marks them as met.
+    #[inline]
+    fn collect_candidates(&mut self, ring: &[u32], candidates: &mut Vec<u32>) {
+        candidates.resize(4 * ring.len(), 0);
+        let mut count = 0;
+        for &c in ring {
+            for link in self.cells[c as usize].n {
+                let mark = &mut self.marks[(link >> 2) as usize];
+                candidates[count] = link >> 2;
+                count += usize::from(*mark == 0);
+                // Cells of the zone keep their mark, all others get this one.
+                *mark |= OUTSIDE;
+            }
+        }
+        candidates.truncate(count);
+    }
+
+    /// Tests the candidates; those in conflict join the zone.
+    #[inline]
+    fn test_candidates(&mut self, q: WeightedPoint, s: &mut Scratch) {
+        let Scratch { zone, candidates, undecided, .. } = s;
+        undecided.clear();
+        let mut count = zone.len();
+        zone.resize(count + candidates.len(), 0);
+        for &c in candidates.iter() {
+            let (value, bound) = K::power_side_estimate(self.corners(&self.cells[c as usize]), q);
+            zone[count] = c;
+            let inside = value > bound;
+            count += usize::from(inside);
+            self.marks[c as usize] |= u8::from(inside);
+            if !(inside || value < -bound) {
+                undecided.push(c);
+            }
+        }
+        zone.truncate(count);
+        for &c in undecided.iter() {
+            if self.in_conflict(&self.cells[c as usize], q) {
+                self.marks[c as usize] |= INSIDE;
+                zone.push(c);
+            }
+        }
+    }
+
+    /// The facets between the zone and the cells around it.
+    #[inline]
+    fn collect_rim(&self, s: &mut Scratch) {
+        let Scratch { zone, rim, .. } = s;
+        s.has_ghosts = false;
+        rim.resize(4 * zone.len(), Rim { v: [0; 3], outer: 0 });
+        let mut count = 0;
+        for &c in zone.iter() {
             let cell = self.cells[c as usize];
             s.has_ghosts |= cell.is_ghost();
             for i in 0..4 {
-                let link = cell.n[i];
-                let beyond = (link >> 2) as usize;
-                match self.marks[beyond] {
-                    INSIDE => continue,
-                    OUTSIDE => {}
-                    _ => {
-                        if self.in_conflict(&self.cells[beyond], q) {
-                            self.marks[beyond] = INSIDE;
-                            s.zone.push(link >> 2);
-                            continue;
-                        }
-                        self.marks[beyond] = OUTSIDE;
-                    }
-                }
-                let v = super::store::FACET[i].map(|k| cell.v[k]);
-                s.rim.push(Rim { v, outer: link });
+                rim[count] = Rim { v: super::store::FACET[i].map(|k| cell.v[k]), outer: cell.n[i] };
+                count += usize::from(self.marks[(cell.n[i] >> 2) as usize] & INSIDE == 0);
             }
         }
+        rim.truncate(count);
     }
 }

@@ -40,5 +40,7 @@ mod report;
 mod spatial;
 mod star;
 mod store;
+#[cfg(test)]
+mod tests;
 
 pub use store::{CellId, Change, INFINITE, Regular3, apex, is_apex};

@@ -40,6 +40,10 @@ pub(super) struct Scratch {
     pub(super) rim: Vec<Rim>,
     /// Whether a ghost is in the zone. Only then a facet of the boundary may have the infinite vertex.
     pub(super) has_ghosts: bool,
+    /// Cells to be tested.
+    pub(super) candidates: Vec<u32>,
+    /// Candidates that need an exact test.
+    pub(super) undecided: Vec<u32>,
     numbers: Numbers,
     /// Per pair of vertex numbers the link of the cell over the edge that leads from one to the other.
     table: Box<[u32; ROWS * ROWS]>,
@@ -83,6 +87,8 @@ impl Default for Scratch {
             zone: Vec::new(),
             rim: Vec::new(),
             has_ghosts: false,
+            candidates: Vec::new(),
+            undecided: Vec::new(),
             numbers: Numbers { number: vec![0; FIRST as usize], home: [NONE; ROWS], count: 0 },
             table: Box::new([0; ROWS * ROWS]),
             corners: Vec::new(),
@@ -132,7 +138,7 @@ impl<K: Kernel3> Regular3<K> {
     }
 
     /// Writes the new cells, one over each facet of the boundary; `None` if there are too many vertices.
-    #[inline(always)]
+    #[inline(never)]
     fn glue<const GHOSTS: bool>(&mut self, p: u32, s: &mut Scratch) -> Option<()> {
         let Scratch { zone, rim, numbers, table, corners, .. } = s;
         corners.clear();

@@ -143,7 +143,9 @@ impl<K: Kernel3> Regular3<K> {
         let mut ids = Vec::with_capacity(room);
         ids.extend([apex(0).0, apex(1).0, apex(2).0, INFINITE.0]);
         let mut sites = Vec::with_capacity(room);
-        sites.resize(FIRST as usize, Site::default());
+        // Nothing can be decided of a cell with these numbers but that it needs a closer look.
+        let nowhere = WeightedPoint { at: crate::model::Point3::NAN, weight: f64::NAN };
+        sites.resize(FIRST as usize, Site(nowhere));
         Regular3 {
             sites,
             ids,
