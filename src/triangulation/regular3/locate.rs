@@ -35,11 +35,11 @@ impl<K: Kernel3> Regular3<K> {
         loop {
             let mut touches = false;
             let mut exit = None;
-            for i in 0..4 {
+            for (i, facet) in FACET.iter().enumerate() {
                 if i == entry {
                     continue;
                 }
-                let [a, b, c] = FACET[i].map(|k| self.sites[cell.v[k] as usize].0.at);
+                let [a, b, c] = facet.map(|k| self.sites[cell.v[k] as usize].0.at);
                 match K::orient3d(a, b, c, q) {
                     Sign::Positive => {}
                     Sign::Zero => touches = true,

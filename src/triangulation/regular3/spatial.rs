@@ -119,7 +119,7 @@ const LEVEL: [[(u8, u8); 8]; 24] = {
                 0 => (0, 0),
                 _ => {
                     let even = 2 * ((w - 1) / 2);
-                    (even ^ even >> 1, (if w % 2 == 0 { w - 1 } else { w }).trailing_ones() % 3)
+                    (even ^ even >> 1, (if w & 1 == 0 { w - 1 } else { w }).trailing_ones() % 3)
                 }
             };
             let inside = (e ^ rotate_right(entry, 3 - (d + 1) % 3)) + 8 * ((d + axis + 1) % 3);

@@ -153,13 +153,13 @@ pub(super) fn assert_sound(t: &T) {
         assert_eq!(t.marks[i as usize], 0);
         vertices.extend(cell.v);
         assert!(cell.v[..3].iter().all(|&v| v != INF));
-        for k in 0..4 {
+        for (k, facet) in FACET.iter().enumerate() {
             let link = cell.n[k];
             let beyond = t.cells[(link >> 2) as usize];
             assert!(!beyond.is_free(), "{i}");
             let j = (link & 3) as usize;
             assert_eq!(beyond.n[j], 4 * i + k as u32, "links of {i} and {}", link >> 2);
-            let shared = FACET[k].map(|m| cell.v[m]);
+            let shared = facet.map(|m| cell.v[m]);
             assert!(shared.iter().all(|v| beyond.v.contains(v)) && !shared.contains(&beyond.v[j]));
             let opposite = beyond.v[j];
             if opposite != INF && opposite != cell.v[k] {
