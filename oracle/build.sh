@@ -1,13 +1,18 @@
 #!/bin/sh
-# Builds the programs that the other scripts run, into target/oracle and target/release.
+# Builds the programs that the other scripts run, into target/oracle and target/release: build.sh [plane|space]   (default plane)
 set -eu
 cd "$(dirname "$0")"
 out=../target/oracle
 mkdir -p "$out"
-for name in sets bench mesh; do
-  if [ ! -x "$out/cgal-$name" ] || [ -n "$(find cgal -newer "$out/cgal-$name" -name '*.?pp')" ]; then
+case ${1:-plane} in
+  plane) programs="sets bench mesh" headers="common.hpp mesh.hpp" ;;
+  space) programs="space_sets space_bench" headers="space.hpp" ;;
+esac
+for name in $programs; do
+  # shellcheck disable=SC2086
+  if [ ! -x "$out/cgal-$name" ] || [ -n "$(cd cgal && find "$name.cpp" $headers -newer "../$out/cgal-$name")" ]; then
     g++ -O2 -DNDEBUG -std=c++17 -o "$out/cgal-$name" "cgal/$name.cpp" -lgmp -lmpfr
   fi
 done
-(cd spade && cargo build --quiet --release --target-dir "../$out/spade")
+[ "${1:-plane}" = space ] || (cd spade && cargo build --quiet --release --target-dir "../$out/spade")
 (cd .. && cargo build --quiet --release && cargo build --quiet --release --features generators --examples)
