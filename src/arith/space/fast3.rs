@@ -106,8 +106,13 @@ impl Kernel3 for FastKernel {
     }
 
     #[inline(always)]
-    fn power_side_estimate(t: WeightedCorners, q: WeightedPoint) -> (f64, f64) {
-        filter3::power_side_estimate(t, q)
+    fn power_side_estimate(t: WeightedCorners, q: WeightedPoint, exact_below: f64) -> (f64, f64) {
+        filter3::power_side_estimate(t, q, exact_below)
+    }
+
+    #[inline(always)]
+    fn orient3d_estimates(t: Corners3, q: Point3) -> ([f64; 4], f64) {
+        filter3::orient3d_estimates(t, q)
     }
 
     fn power_side_of_triangle(t: [WeightedPoint; 3], q: WeightedPoint) -> Sign {

@@ -43,23 +43,41 @@ pub(super) fn in_sphere(t: Corners3, q: Point3) -> Option<Sign> {
 /// Position of q against the orthoball of t where the filter can tell.
 #[inline(always)]
 pub(super) fn power_side(t: WeightedCorners, q: WeightedPoint) -> Option<Sign> {
-    let (det, bound) = power_side_estimate(t, q);
+    let (det, bound) = power_side_estimate(t, q, 0.0);
     sign_beyond(det, bound)
 }
 
 /// The determinant of the power test and a bound of its error.
 ///
+/// On a grid of unit u, squared distances and differences of weights adding up to less than (1024 u)^2, lifts are below 2^20 u^2, triple products below
+/// 2^30 u^3 (Hadamard) and their partial sums below 2^33 u^3, four products of the two below 2^52 u^5: all integers below 2^53, so that nothing is
+/// rounded and the bound is 0.
+///
 /// As for `in_sphere`, a lift being |p - q|^2 + (w_q - w_p): one more rounded difference and one more sum instead of a difference and a
 /// product at least; its terms sum to at most L + W, W the largest difference of weights. 17 factors at most: 8.73e-15 (L + W) L^1.5.
 #[inline(always)]
-pub(super) fn power_side_estimate(t: WeightedCorners, q: WeightedPoint) -> (f64, f64) {
+pub(super) fn power_side_estimate(t: WeightedCorners, q: WeightedPoint, exact_below: f64) -> (f64, f64) {
     const BOUND: f64 = 8.8e-15;
     let (m, l) = minors_and_lifts(t.map(|p| p.at), q.at);
     let w = t.map(|p| q.weight - p.weight);
     let det = ((l[0] + w[0]) * m[0] + (l[1] + w[1]) * m[1]) + ((l[2] + w[2]) * m[2] + (l[3] + w[3]) * m[3]);
     let largest = larger(larger(l[0], l[1]), larger(l[2], l[3]));
     let heaviest = larger(larger(w[0].abs(), w[1].abs()), larger(w[2].abs(), w[3].abs()));
-    (det, BOUND * ((largest + heaviest) * largest * largest.sqrt()))
+    let bound = BOUND * ((largest + heaviest) * largest * largest.sqrt());
+    // Nothing is below 0, so that without a grid no bound is.
+    (det, if largest + heaviest < exact_below { 0.0 } else { bound })
+}
+
+/// The orientations of the tetrahedron with q in place of each corner, and a bound of their errors, derived as for `orient3d`.
+#[inline(always)]
+pub(super) fn orient3d_estimates(t: Corners3, q: Point3) -> ([f64; 4], f64) {
+    const BOUND: f64 = 5.4e-15;
+    let (m, _) = minors_and_lifts(t, q);
+    let [a, b, c, d] = t.map(|p| (p - q).abs());
+    let x = larger(larger(a.x, b.x), larger(c.x, d.x));
+    let y = larger(larger(a.y, b.y), larger(c.y, d.y));
+    let z = larger(larger(a.z, b.z), larger(c.z, d.z));
+    (m, BOUND * (x * y * z))
 }
 
 /// The signed triple products of the other three corners and the squared distance from q, for each corner: the determinant is the sum of

@@ -111,12 +111,22 @@ pub trait Kernel3: Kernel {
     /// |ab| times s, rounded away from zero to 26 significant bits.
     fn short_radius_above(a: Point3, b: Point3, s: f64) -> f64;
 
-    /// A quick estimate of a number with the sign of `power_side`, and a bound of its error: where the value exceeds the bound or
-    /// falls below its negative, that is the sign. For many tests in a row without a branch; decides nothing if an argument is NaN.
+    // Estimates: a value and a bound of its error. Where the value exceeds the bound or falls below its negative, its sign is certain. They
+    // serve many tests in a row without a branch, and decide nothing where an argument is NaN.
+
+    /// A number with the sign of `power_side`. Where all coordinates are multiples of some power of two u, and all weights multiples of u^2, the
+    /// caller may pass `exact_below` up to (1024 u)^2: then a bound of 0 means that the value is exact, 0 included. Else it passes 0.
     #[inline(always)]
-    fn power_side_estimate(t: WeightedCorners, q: WeightedPoint) -> (f64, f64) {
+    fn power_side_estimate(t: WeightedCorners, q: WeightedPoint, exact_below: f64) -> (f64, f64) {
+        let _ = (t, q, exact_below);
+        (0.0, f64::INFINITY)
+    }
+
+    /// For each corner of t a number with the sign of `orient3d` with q in place of the corner; one bound for all.
+    #[inline(always)]
+    fn orient3d_estimates(t: Corners3, q: Point3) -> ([f64; 4], f64) {
         let _ = (t, q);
-        (0.0, 0.0)
+        ([0.0; 4], f64::INFINITY)
     }
 
     /// Whether q is in conflict with the positively oriented tetrahedron t under the one tie-break: strictly nearer than its orthoball, or exactly on it

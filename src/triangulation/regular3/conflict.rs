@@ -3,6 +3,7 @@
 use super::star::{Rim, Scratch};
 use super::store::{Cell, Regular3};
 use crate::arith::space::Kernel3;
+use crate::arith::space::perturb3::cospherical_in_conflict;
 use crate::model::{Sign, WeightedPoint};
 
 /// The cell belongs to the zone.
@@ -72,22 +73,29 @@ impl<K: Kernel3> Regular3<K> {
     #[inline]
     fn test_candidates(&mut self, q: WeightedPoint, s: &mut Scratch) {
         let Scratch { zone, candidates, undecided, .. } = s;
+        let exact_below = self.exact_below;
         undecided.clear();
         let mut count = zone.len();
         zone.resize(count + candidates.len(), 0);
         for &c in candidates.iter() {
-            let (value, bound) = K::power_side_estimate(self.corners(&self.cells[c as usize]), q);
+            let (value, bound) = K::power_side_estimate(self.corners(&self.cells[c as usize]), q, exact_below);
             zone[count] = c;
             let inside = value > bound;
             count += usize::from(inside);
             self.marks[c as usize] |= u8::from(inside);
             if !(inside || value < -bound) {
-                undecided.push(c);
+                undecided.push((c, bound == 0.0));
             }
         }
         zone.truncate(count);
-        for &c in undecided.iter() {
-            if self.in_conflict(&self.cells[c as usize], q) {
+        for &(c, is_tie) in undecided.iter() {
+            let cell = &self.cells[c as usize];
+            let inside = if is_tie {
+                cospherical_in_conflict::<K>(self.corners(cell).map(|p| p.at), q.at)
+            } else {
+                self.in_conflict(cell, q)
+            };
+            if inside {
                 self.marks[c as usize] |= INSIDE;
                 zone.push(c);
             }

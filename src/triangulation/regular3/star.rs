@@ -42,8 +42,8 @@ pub(super) struct Scratch {
     pub(super) has_ghosts: bool,
     /// Cells to be tested.
     pub(super) candidates: Vec<u32>,
-    /// Candidates that need an exact test.
-    pub(super) undecided: Vec<u32>,
+    /// Candidates that need a closer look, and whether the point is known to lie exactly on their sphere.
+    pub(super) undecided: Vec<(u32, bool)>,
     numbers: Numbers,
     /// Per pair of vertex numbers the link of the cell over the edge that leads from one to the other.
     table: Box<[u32; ROWS * ROWS]>,

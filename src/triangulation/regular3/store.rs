@@ -114,6 +114,10 @@ pub struct Regular3<K: Kernel3> {
     pub(super) free: Vec<u32>,
     /// The dimension of the affine hull of the points.
     pub(super) dimension: Option<u8>,
+    /// All coordinates are multiples of this power of two, all weights of its square.
+    pub(super) unit: f64,
+    /// Below this squared distance determinants of such numbers are exact in f64s: (1024 unit)^2.
+    pub(super) exact_below: f64,
     /// Where the next search starts: a live cell, if there is one.
     pub(super) last: u32,
     pub(super) lodgers: super::lodge::Lodgers,
@@ -156,6 +160,8 @@ impl<K: Kernel3> Regular3<K> {
             marks: Vec::with_capacity(cells),
             free: Vec::new(),
             dimension: None,
+            unit: 1.0,
+            exact_below: 1024.0 * 1024.0,
             last: NONE,
             lodgers: Default::default(),
             twins: BTreeMap::new(),
@@ -263,12 +269,27 @@ impl<K: Kernel3> Regular3<K> {
     pub(super) fn add_site(&mut self, p: WeightedPoint, id: u32) -> u32 {
         let place = self.sites.len() as u32;
         // -0 would not be equal to 0 in the order of points.
-        let at = p.at + crate::model::Point3::ZERO;
-        self.sites.push(Site(WeightedPoint { at, weight: p.weight + 0.0 }));
+        let p = WeightedPoint { at: p.at + crate::model::Point3::ZERO, weight: p.weight + 0.0 };
+        self.refine_unit(p);
+        self.sites.push(Site(p));
         self.ids.push(id);
         self.status.push(Status::Vertex);
         self.hints.push(NONE);
         place
+    }
+
+    /// Makes the coordinates of p multiples of the unit, and its weight one of the square, unless that takes a unit too small to be of use.
+    #[inline]
+    fn refine_unit(&mut self, p: WeightedPoint) {
+        const SMALLEST: f64 = 1.0 / (1u64 << 40) as f64;
+        let fits = |x: f64, unit: f64| (x / unit) as i64 as f64 == x / unit;
+        while self.exact_below > 0.0
+            && !(p.at.to_array().into_iter().all(|x| fits(x, self.unit)) && fits(p.weight, self.unit * self.unit))
+        {
+            self.unit /= 2.0;
+            let reach = 1024.0 * self.unit;
+            self.exact_below = if self.unit < SMALLEST { 0.0 } else { reach * reach };
+        }
     }
 
     /// A slot to write to.
