@@ -24,8 +24,13 @@ pub(super) fn integer(text: &str) -> Result<i64, String> {
 pub(super) fn push_float(out: &mut Vec<u8>, x: f64) {
     use std::io::Write;
     let start = out.len();
-    // Writing to a vector cannot fail.
-    write!(out, "{x:?}").expect("a vector takes every byte");
+    if (1e-4..1e16).contains(&x.abs()) {
+        // The notation of `{:?}` and as many digits, three times as fast. Writing a finite number to a vector cannot fail.
+        serde_json::to_writer(&mut *out, &x).expect("a vector takes every byte");
+    } else {
+        // Writing to a vector cannot fail.
+        write!(out, "{x:?}").expect("a vector takes every byte");
+    }
     if out[start..].ends_with(b".0") {
         out.truncate(out.len() - 2);
     }
@@ -56,6 +61,27 @@ mod tests {
             push_float(&mut out, x);
             assert_eq!(finite(std::str::from_utf8(&out).unwrap()).unwrap().to_bits(), x.to_bits());
             assert!(out.len() < 26);
+        }
+    }
+
+    /// Both ways to write a number give the same number in the same notation and length; of two nearest decimals they may choose differently.
+    #[test]
+    fn one_notation() {
+        let mut bits = 1u64;
+        let mut near = vec![1e-4, 1e16, 0.1, 123456789.0, 9007199254740993.0, 1e15];
+        for _ in 0..20_000 {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            near.push(f64::from_bits(bits));
+            // Exponents from 2^-15 to 2^56, where the notation changes.
+            near.push(f64::from_bits((bits >> 12) | ((1008 + bits % 72) << 52)));
+        }
+        for x in near.into_iter().filter(|x| x.is_finite()).flat_map(|x| [x, -x, x.next_up(), x.next_down()]) {
+            let mut out = Vec::new();
+            push_float(&mut out, x);
+            let (text, other) = (String::from_utf8(out).unwrap(), format!("{x:?}"));
+            let other = other.strip_suffix(".0").unwrap_or(&other);
+            assert_eq!((text.len(), text.find(['.', 'e'])), (other.len(), other.find(['.', 'e'])), "{text} {other}");
+            assert_eq!(text.parse::<f64>().unwrap().to_bits(), x.to_bits());
         }
     }
 }

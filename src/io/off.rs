@@ -14,7 +14,8 @@ use crate::model::{Point2, VertexId};
 /// Errors: the first fault; faces that are no triangles and vertices off one plane z = constant are faults.
 pub fn parse_off(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
     let mut rows = Rows::new(".off", bytes)?;
-    let Header { points, faces, .. } = header(&mut rows)?;
+    let Header { points, faces, .. } =
+        header(&mut rows, &["OFF"], "it must start with the word OFF; its variants are not read")?;
     let mut mesh = ForeignMesh::default();
     let mut flat = Flat::default();
     mesh.points.reserve(points);
@@ -46,21 +47,20 @@ pub fn parse_off(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
 }
 
 /// The counts of an `.off` file, within its size, and their line.
-pub(super) struct Header {
+pub(super) struct Header<'a> {
+    /// The word that the file starts with.
+    pub(super) word: &'a str,
     pub(super) points: usize,
     pub(super) faces: usize,
     pub(super) line: u32,
 }
 
-/// Reads what precedes the vertices.
-pub(super) fn header(rows: &mut Rows) -> Result<Header, ReadError> {
+/// Reads what precedes the vertices. `words` are those the file may start with; `fix` says so.
+pub(super) fn header<'a>(rows: &mut Rows<'a>, words: &[&str], fix: &str) -> Result<Header<'a>, ReadError> {
     let mut head = rows.expect(Element::The("header"))?;
     let word = head.word("the word OFF")?;
-    if word != "OFF" {
-        return Err(head.fault(
-            format!("the file starts with `{}`", shown(word)),
-            "it must start with the word OFF; its variants are not read",
-        ));
+    if !words.contains(&word) {
+        return Err(head.fault(format!("the file starts with `{}`", shown(word)), fix));
     }
     if head.remainder() == "BINARY" {
         return Err(head.fault("the encoding is BINARY", "write the file as text"));
@@ -76,5 +76,5 @@ pub(super) fn header(rows: &mut Rows) -> Result<Header, ReadError> {
     }
     let line = head.line;
     head.end()?;
-    Ok(Header { points, faces, line })
+    Ok(Header { word, points, faces, line })
 }

@@ -1,6 +1,7 @@
-//! Reads the vertices of an `.off` file as points of space. Its faces are read for their faults and left out.
+//! Reads the vertices of an `.off` file as points of space. Its faces are read for their faults and left out, and so are the colours, normals and
+//! texture coordinates of vertices, which the first word of the file announces (`COFF`, `NOFF`, `STOFF`).
 
-use super::{Builder, Column, Input3};
+use super::{Builder, Column, Input3, others};
 use crate::io::off::{Header, header};
 use crate::io::rows::{Element, Rows};
 use crate::io::{Note, NoteKind, ReadError};
@@ -10,7 +11,9 @@ use crate::io::{Note, NoteKind, ReadError};
 /// Errors: the first fault; a column, since the format has none.
 pub fn parse_off3(bytes: &[u8], column: Option<&Column>) -> Result<Input3, ReadError> {
     let mut rows = Rows::new(".off", bytes)?;
-    let Header { points, faces, line } = header(&mut rows)?;
+    let words = ["OFF", "COFF", "NOFF", "CNOFF", "STOFF"];
+    let fix = "it must start with the word OFF, or COFF, NOFF, CNOFF, STOFF";
+    let Header { word, points, faces, line } = header(&mut rows, &words, fix)?;
     if let Some(column) = column {
         column.find(".off", 3, &[""; 0], &[0, 1, 2]).map_err(|e| ReadError { line, ..e })?;
     }
@@ -19,7 +22,11 @@ pub fn parse_off3(bytes: &[u8], column: Option<&Column>) -> Result<Input3, ReadE
         let mut row = rows.expect(Element::Nth("vertex", k))?;
         let at = [row.float("x")?, row.float("y")?, row.float("z")?];
         set.push_row(at, None, &row)?;
-        row.end()?;
+        if word == "OFF" {
+            row.end()?;
+        } else if k == 0 {
+            set.leaves_out(row.line, &others(3 + row.fields(), &[0, 1, 2], None), &[""; 0]);
+        }
     }
     for k in 0..faces as u64 {
         let mut row = rows.expect(Element::Nth("face", k))?;
