@@ -17,6 +17,7 @@ mod cdt;
 mod kernels;
 mod mutations;
 pub mod readers;
+mod readers3;
 mod refinement;
 mod users;
 

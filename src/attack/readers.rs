@@ -1,5 +1,6 @@
 //! Readers on any bytes: they answer, with no more than the bytes can say; what was read, written and read again is the same.
 
+use super::readers3;
 use super::refinement::records;
 use crate::arith::FastKernel;
 use crate::check::{self, Checker, Verdict, verify};
@@ -12,7 +13,7 @@ use crate::trace::{self, Reader, Record};
 const MOST_MESHED: usize = 64;
 
 /// Files of a mesh of Triangle in one input: separated by this byte, which no text file holds.
-const BETWEEN_FILES: u8 = 0;
+pub(super) const BETWEEN_FILES: u8 = 0;
 
 /// A reader of one format under attack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -31,6 +32,28 @@ pub enum Target {
     Vtu,
     /// Gmsh.
     Msh,
+    /// `.node` in space.
+    Node3,
+    /// `.xyz`.
+    Xyz,
+    /// Vertices of the Object File Format.
+    Off3,
+    /// Stanford polygons.
+    Ply,
+    /// `.csv`.
+    Csv,
+    /// NumPy arrays.
+    Npy,
+    /// `.node`, `.ele`, `.face`, `.edge` in space, with zero bytes between.
+    Tetgen,
+    /// Medit.
+    Medit,
+    /// Gmsh in space.
+    Msh3,
+    /// VTK XML in space.
+    Vtu3,
+    /// Legacy VTK.
+    Vtk,
     /// Traces, JSON lines.
     TraceText,
     /// Traces, binary.
@@ -63,12 +86,23 @@ pub fn run(target: Target, bytes: &[u8]) {
         Target::Off => mesh(bytes, io::parse_off(bytes)),
         Target::Vtu => mesh(bytes, io::parse_vtu(bytes)),
         Target::Msh => mesh(bytes, io::parse_msh(bytes)),
+        Target::Node3 => readers3::points(Format::Node, bytes),
+        Target::Xyz => readers3::points(Format::Xyz, bytes),
+        Target::Off3 => readers3::points(Format::Off, bytes),
+        Target::Ply => readers3::points(Format::Ply, bytes),
+        Target::Csv => readers3::points(Format::Csv, bytes),
+        Target::Npy => readers3::points(Format::Npy, bytes),
+        Target::Tetgen => readers3::tetgen(bytes),
+        Target::Medit => readers3::mesh(Format::Medit, bytes),
+        Target::Msh3 => readers3::mesh(Format::Msh, bytes),
+        Target::Vtu3 => readers3::mesh(Format::Vtu, bytes),
+        Target::Vtk => readers3::mesh(Format::Vtk, bytes),
         Target::TraceText | Target::TraceBinary => trace_of(bytes),
     }
 }
 
 /// A refusal is one line that says what is wrong, and in which file.
-fn assert_located(e: &ReadError) {
+pub(super) fn assert_located(e: &ReadError) {
     assert!(!e.part.is_empty() && !e.problem.is_empty(), "{e:?}");
     assert!(!e.to_string().contains(char::is_control), "{e:?}");
 }
