@@ -27,19 +27,23 @@ impl<K: Kernel3> Regular3<K> {
         assert!(id < u32::MAX - 8, "a triangulation holds fewer than 2^32 - 8 points");
         let place = self.add_site(p, id);
         self.places.push(place);
+        self.put(place, change);
+        VertexId(id)
+    }
+
+    /// Inserts the point of a place that has a site and an id, wherever it lies.
+    pub(super) fn put(&mut self, place: u32, change: &mut Change) {
+        self.status[place as usize] = Status::Vertex;
         if self.dimension.is_none() {
             self.raise_from_nothing(place);
-            change.created.extend((0..self.cells.len() as u32).map(CellId));
-        } else if let Some((apex, side)) = self.off_hull(p.at) {
-            let old: Vec<_> = self.cells().map(|c| self.vertices(c)).collect();
-            change.destroyed.extend(old);
+            change.created.extend(self.cells());
+        } else if let Some((apex, side)) = self.off_hull(self.site(place).at) {
+            change.destroyed.extend(self.cells().map(|c| self.vertices(c)));
             self.raise(place, apex, side);
-            let all: Vec<_> = self.cells().collect();
-            change.created.extend(all);
+            change.created.extend(self.cells());
         } else {
             self.insert_in_hull(place, change);
         }
-        VertexId(id)
     }
 
     /// Inserts the point of a place, which lies in the affine hull of the others. Its status is that of a vertex, its id is set.

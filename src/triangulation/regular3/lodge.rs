@@ -43,6 +43,19 @@ impl<K: Kernel3> Regular3<K> {
         gone
     }
 
+    /// A hidden point leaves its cell.
+    pub(super) fn move_out(&mut self, place: u32) {
+        let cell = self.hints[place as usize];
+        if let Some(all) = self.lodgers.of_cell.get_mut(&cell) {
+            all.retain(|&p| p != place);
+            if all.is_empty() {
+                self.lodgers.of_cell.remove(&cell);
+            }
+        }
+        self.hints[place as usize] = NONE;
+        self.lodgers.by_site.remove(&key(self.site(place)));
+    }
+
     /// Finds all lodgers new cells.
     pub(super) fn move_all_lodgers(&mut self) {
         let cells: Vec<u32> = self.lodgers.of_cell.keys().copied().collect();
@@ -61,7 +74,10 @@ impl<K: Kernel3> Regular3<K> {
             self.places.swap(self.ids[i] as usize, self.ids[j] as usize);
         }
         self.status[i] = Status::Duplicate;
-        self.hints[i] = of;
-        self.twins.entry(of).or_default().push(place);
+        // A hidden point that comes back may bring duplicates of its own.
+        let mut moving = self.twins.remove(&place).unwrap_or_default();
+        moving.push(place);
+        moving.iter().for_each(|&twin| self.hints[twin as usize] = of);
+        self.twins.entry(of).or_default().extend(moving);
     }
 }

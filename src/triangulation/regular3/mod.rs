@@ -32,15 +32,19 @@
 
 mod build;
 mod conflict;
+mod fill;
 mod insert;
 mod locate;
 mod lodge;
 mod raise;
+mod remove;
 mod report;
 mod spatial;
 mod star;
 mod store;
 #[cfg(test)]
 mod tests;
+mod validate;
 
 pub use store::{CellId, Change, INFINITE, Regular3, apex, is_apex};
+pub use validate::Violation;

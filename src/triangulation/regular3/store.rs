@@ -91,8 +91,6 @@ pub(super) enum Status {
     Vertex,
     Hidden,
     Duplicate,
-    // Made by removals, which are still to come.
-    #[allow(dead_code)]
     Removed,
 }
 
