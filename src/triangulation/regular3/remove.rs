@@ -32,7 +32,11 @@ impl<K: Kernel3> Regular3<K> {
         self.assign_weight(v, weight);
         self.put_back(v, change);
         homeless.iter().for_each(|&h| self.put_back(h, change));
-        if before == PointState::Vertex { change.hidden.push(v) } else { homeless.push(v) }
+        if before == PointState::Vertex {
+            change.hidden.push(v)
+        } else {
+            homeless.push(v)
+        }
         self.sum_up(&homeless, change);
     }
 
