@@ -5,9 +5,10 @@ use super::complex::Complex;
 use super::report::{Claim, ClaimReport, Witness};
 use crate::audit::figures::Classes;
 use crate::audit::report::Verdict;
+use crate::check::space::double::sign_in_space;
 use crate::check::space::glue::{BORDER, FACETS};
 use crate::check::space::predicates::{Corners, cross, dot, vector};
-use crate::check::value::{Number, sign_of};
+use crate::check::value::Number;
 use crate::model::{Point3, Sign};
 
 /// How many of the worst cells are shown.
@@ -146,7 +147,7 @@ fn claimed(complex: &Complex<'_>, rho: f64, report: &mut ClaimReport) {
 fn is_skinny(t: &Corners, rho: f64) -> bool {
     let p = t.map(|p| p.at);
     let pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
-    pairs.iter().any(|&(i, j)| sign_of!(skinny_in(&p, [p[i], p[j]], rho)) != Sign::Negative)
+    pairs.iter().any(|&(i, j)| sign_in_space!(skinny_in(&p, [p[i], p[j]], rho)) != Sign::Negative)
 }
 
 fn skinny_in<N: Number>(p: &[Point3; 4], edge: [Point3; 2], rho: f64) -> N {

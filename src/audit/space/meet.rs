@@ -1,7 +1,8 @@
 //! Whether triangles meet where they should not, and how rays cross them: exact, each case from orientations.
 
+use crate::check::space::double::sign_in_space;
 use crate::check::space::predicates::{Vector, cross, dot, orient, vector};
-use crate::check::value::{Number, sign_of};
+use crate::check::value::Number;
 use crate::model::{Point3, Sign};
 
 /// A triangle.
@@ -63,7 +64,7 @@ fn same_side(u: Point3, v: Point3, p: Point3, q: Point3) -> bool {
 
 /// Which way a, b, c turn as seen against an axis.
 fn turn(axis: usize, a: Point3, b: Point3, c: Point3) -> Sign {
-    sign_of!(turn_in(axis, a, b, c))
+    sign_in_space!(turn_in(axis, a, b, c))
 }
 
 fn turn_in<N: Number>(axis: usize, a: Point3, b: Point3, c: Point3) -> N {
@@ -81,7 +82,7 @@ fn minor<N: Number>(axis: usize, u: &Vector<N>, v: &Vector<N>) -> N {
 /// The ray starts at the center of `from` and heads in the direction (1, e, e^2) with an infinitesimal e > 0, which lies in no plane
 /// through three points. It crosses if it is in the cone of the corners seen from its start: on the inner side of the cone's three planes.
 pub(super) fn crossing(from: &Triangle, t: &Triangle) -> i32 {
-    let outgoing = match sign_of!(cone(from, t)) {
+    let outgoing = match sign_in_space!(cone(from, t)) {
         Sign::Zero => return 0,
         Sign::Positive => false,
         Sign::Negative => true,
@@ -102,7 +103,7 @@ pub(super) fn heads_in(t: &Triangle) -> bool {
 
 /// The sign of (1, e, e^2) . (p x q), p and q seen from the center of `from`: of the first component that is not zero.
 fn heading(from: &Triangle, p: Point3, q: Point3) -> Sign {
-    (0..3).map(|axis| sign_of!(heading_in(from, p, q, axis))).find(|&s| s != Sign::Zero).unwrap_or(Sign::Zero)
+    (0..3).map(|axis| sign_in_space!(heading_in(from, p, q, axis))).find(|&s| s != Sign::Zero).unwrap_or(Sign::Zero)
 }
 
 fn heading_in<N: Number>(from: &Triangle, p: Point3, q: Point3, axis: usize) -> N {

@@ -4,7 +4,7 @@
 //! lifts of a positively oriented cell is S.x / D with D = u.(v x w) and S = L(u) (v x w) + L(v) (w x u) + L(w) (u x v). A point q is strictly
 //! inside the orthosphere (with weights 0: the circumsphere) where its lift is below that plane: S.x - D L(x) > 0.
 //!
-//! First a value in doubles with a proven error bound; then `value::Approx`, which knows when a value is exact; then rationals.
+//! First a value in doubles with a proven error bound; then pairs of doubles (`double`), which know when a value is exact; then rationals.
 //!
 //! The range: either no coordinate and no weight exceeds 1, or products of up to five differences and weights neither under- nor overflow.
 //! Differences of coordinates count as variables, so each is rounded once. A monomial of S.x - D L(x) is rounded at most 18 times: u_x twice
@@ -13,7 +13,8 @@
 //! 20 2^-53 `size`. Underflow happens only in the first range, where each loses at most 2^-1074 and is magnified less than 2^12 times: `TINY`
 //! pays for a thousand of them. Overflow gives an infinity or a NaN, and no answer.
 
-use crate::check::value::{Number, sign_of};
+use super::double::sign_in_space;
+use crate::check::value::Number;
 use crate::model::{Point3, Sign, WeightedPoint};
 use std::cmp::Ordering;
 
@@ -89,7 +90,7 @@ fn triple(u: Point3, m: &[Sized; 3]) -> Sized {
 #[inline]
 pub fn orient(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
     let [value, size] = triple(b - a, &minors(c - a, d - a));
-    certain(value, size).unwrap_or_else(|| sign_of!(volume6(a, b, c, d)))
+    certain(value, size).unwrap_or_else(|| sign_in_space!(volume6(a, b, c, d)))
 }
 
 /// The plane through the lifted corners of a cell: what is the same for all points that are tested against one orthosphere.
@@ -150,7 +151,7 @@ pub fn side(t: &Corners, q: &WeightedPoint) -> Sign {
 /// As `side`, where doubles cannot tell.
 #[cold]
 pub fn exact_side(t: &Corners, q: &WeightedPoint) -> Sign {
-    sign_of!(depth(t, q))
+    sign_in_space!(depth(t, q))
 }
 
 /// Order of places by x, then y, then z; -0 equals 0. Coordinates are finite.
