@@ -400,15 +400,15 @@ impl<'a> File<'a> {
     /// integers are the numbers of components and of nodes; then `node value...`.
     fn node_data(&mut self, weights: &str) -> Result<(), ReadError> {
         let mut name = "";
-        let mut integers = [0; 3];
+        let mut integers = [0i64; 3];
         for (k, what) in ["string tags", "real tags", "integer tags"].into_iter().enumerate() {
             let mut head = self.rows.expect(Element::The(what))?;
             let count = head.count("their number", 2, &self.rows)?;
             for i in 0..count {
                 let mut row = self.rows.expect(Element::The(what))?;
-                match k {
-                    0 if i == 0 => name = row.remainder().trim_matches('"'),
-                    2 if i < 3 => integers[i] = row.integer("an integer tag")?,
+                match (k, integers.get_mut(i)) {
+                    (0, _) if i == 0 => name = row.remainder().trim_matches('"'),
+                    (2, Some(integer)) => *integer = row.integer("an integer tag")?,
                     _ => {}
                 }
             }

@@ -280,7 +280,7 @@ fn bad_meshes() {
 
 fn coordinate() -> impl Strategy<Value = f64> {
     // Every finite number but -0, which readers turn into 0.
-    any::<u64>().prop_map(|bits| f64::from_bits(bits)).prop_filter("finite", |x| x.is_finite()).prop_map(|x| x + 0.0)
+    any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |x| x.is_finite()).prop_map(|x| x + 0.0)
 }
 
 prop_compose! {
