@@ -9,10 +9,11 @@ use super::rows::Regions;
 use super::scale::Scale;
 use super::scale::power_of_two;
 use super::sight::Search;
+use super::space::Checker3;
 use super::start::{self, Domain};
 use super::strict::Strict;
 use super::verdict::{Checked, Place, Rejection, Rule, Unchecked, Verdict, broken, ensure, placed};
-use crate::model::{Choice, DiskChoice, GcdrParameters, Level, Point2, Region, Segment};
+use crate::model::{Choice, DiskChoice, GcdrParameters, Level, Point2, Region, Segment, Triangulation3};
 use crate::trace::{Algorithm, End, Event, Header, Record, SkipReason};
 
 /// What to check.
@@ -69,6 +70,8 @@ pub struct Checker {
     events: u64,
     unchecked: Vec<Unchecked>,
     rejection: Option<Rejection>,
+    /// Of a trace of space.
+    space: Option<Box<Checker3>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -102,18 +105,24 @@ impl Checker {
             events: 0,
             unchecked: Vec::new(),
             rejection: None,
+            space: None,
         }
     }
 
     /// Takes the next record. After a rejection nothing more is looked at.
     pub fn push(&mut self, record: &Record) -> Result<(), &Rejection> {
-        if self.rejection.is_none() {
+        if let (Record::Space(record), None) = (record, &self.rejection)
+            && self.stage == Stage::Fresh
+        {
+            let space = self.space.get_or_insert_with(|| Box::new(Checker3::new(self.options)));
+            self.rejection = space.push(record).err();
+        } else if self.rejection.is_none() {
             let place = match record {
                 Record::Header(_) => Place::Header,
                 Record::Vertex { .. } | Record::Segment(_) | Record::Hole(_) | Record::Region(_) => Place::Domain,
                 Record::Start { .. } | Record::Triangle(_) => Place::Start,
                 Record::Event(_) => Place::Event(self.events),
-                Record::End(_) => Place::End,
+                Record::End(_) | Record::Space(_) => Place::End,
             };
             if let Err(b) = self.take(record) {
                 // A removal is judged when its split comes; the replay knows its number.
@@ -125,6 +134,11 @@ impl Checker {
             }
         }
         self.rejection.as_ref().map_or(Ok(()), Err)
+    }
+
+    /// The triangulation after the last record of a trace of space, input units.
+    pub fn triangulation(&self) -> Option<Triangulation3> {
+        self.space.as_ref().map(|space| space.triangulation())
     }
 
     /// What the replay has come to, for `snapshot`.
@@ -146,6 +160,9 @@ impl Checker {
         if let Some(rejection) = self.rejection {
             return Verdict::Rejected(rejection);
         }
+        if let Some(space) = self.space.as_ref().filter(|space| space.ended()) {
+            return Verdict::Accepted { events: space.events(), unchecked: Vec::new() };
+        }
         if self.stage != Stage::Ended {
             let b = super::verdict::Broken {
                 rule: Rule::Stream,
@@ -161,6 +178,7 @@ impl Checker {
 
     fn take(&mut self, record: &Record) -> Checked {
         match record {
+            _ if self.space.is_some() => broken(Rule::Stream, "a record of space", "one of the plane"),
             Record::Header(header) => {
                 self.once(Stage::Vertices)?;
                 self.advance(Stage::Fresh, Stage::Vertices)?;
@@ -219,6 +237,7 @@ impl Checker {
                 self.events += 1;
                 Ok(())
             }
+            Record::Space(_) => broken(Rule::Stream, "a record of the plane", "one of space"),
             Record::End(end) => {
                 self.once(Stage::Ended)?;
                 self.advance(Stage::Events, Stage::Ended)?;

@@ -122,6 +122,24 @@ pub enum Rule {
     Removals,
     /// A row with local feature size or density.
     Spacing,
+    /// In space: every tetrahedron is positively oriented.
+    Orientation,
+    /// In space: every facet has a cell on each side.
+    Closed,
+    /// In space: the hull is convex, and covered once.
+    Hull,
+    /// In space: every orthoball is empty.
+    Regular,
+    /// In space: a hidden point is not in conflict with the tetrahedron that contains it.
+    Hidden,
+    /// In space: a duplicate has the place and weight of the point that stands for it.
+    Duplicate,
+    /// In space: points are placed each once, and in order.
+    Order,
+    /// In space: the points span the dimension that the trace says.
+    Dimension,
+    /// In space: the Euler characteristic of the closed complex.
+    Euler,
 }
 
 impl fmt::Display for Rule {

@@ -7,7 +7,7 @@ use super::outputs::{check_names, stage};
 use super::{Answer, Failure, Status, talk};
 use crate::io::{Format, write};
 use crate::model::Fill;
-use crate::trace::{self, Reader, Record, Sink, Writer};
+use crate::trace::{self, Reader, Sink, Writer};
 use std::path::Path;
 
 /// Converts a trace, an input or a mesh by the extensions of its two names. A `.poly` or `.node` file with an `.ele` file of the same name
@@ -71,9 +71,7 @@ fn convert_trace(from: &Path, to: &Path, format: trace::Format, staged: &mut Sta
     let mut writer = Writer::new(staged.create(to)?, format);
     while let Some(record) = reader.next() {
         let record = record.map_err(|e| Failure::at(from, e))?;
-        if let Record::End(end) = &record
-            && end.trace != reader.digest()
-        {
+        if record.trace_digest().is_some_and(|digest| digest != reader.digest()) {
             return Err(Failure::at(from, "the digest of the trace does not fit its content"));
         }
         writer.record(&record).map_err(|e| Failure::at(to, e))?;

@@ -8,7 +8,7 @@ use crate::check::spacing::{Count, Kind, Row, Spacing, Violation};
 use crate::check::{Checker, Options, Verdict};
 use crate::model::words::counted;
 use crate::model::{Fill, Pslg, Segment};
-use crate::trace::{DecodeError, Header, Reader, Record};
+use crate::trace::{DecodeError, Header, Reader, Record, Record3};
 use serde_json::json;
 use std::time::Instant;
 
@@ -45,11 +45,11 @@ pub fn run(args: &VerifyArgs) -> Answer {
     while let Some(record) = reader.next() {
         let judged = match record {
             Ok(record) => judge.record(&record).and_then(|()| match &record {
-                Record::End(end) if !args.no_digest && end.trace != reader.digest() => Err(Rejection {
+                record if !args.no_digest && record.trace_digest().is_some_and(|d| d != reader.digest()) => Err(Rejection {
                     event: "end".into(),
                     rule: "Digest".into(),
                     expected: reader.digest(),
-                    found: end.trace.clone(),
+                    found: record.trace_digest().unwrap_or_default().to_string(),
                 }),
                 _ => Ok(()),
             }),
@@ -120,7 +120,7 @@ impl Judge {
                     });
                 }
             }
-            Record::Triangle(_) | Record::Event(_) | Record::End(_) => {}
+            Record::Triangle(_) | Record::Event(_) | Record::End(_) | Record::Space(_) => {}
         }
         Ok(())
     }
@@ -220,6 +220,13 @@ fn place(record: &Record) -> Option<&'static str> {
         Record::Start { .. } | Record::Triangle(_) => Some("start"),
         Record::Event(_) => None,
         Record::End(_) => Some("end"),
+        Record::Space(record) => match record {
+            Record3::Header(_) => Some("header"),
+            Record3::Vertex { .. } | Record3::Weight { .. } => Some("input"),
+            Record3::Start { .. } | Record3::Simplex(_) => Some("start"),
+            Record3::Event(_) => None,
+            Record3::End(_) => Some("end"),
+        },
     }
 }
 

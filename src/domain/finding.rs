@@ -3,7 +3,7 @@
 //! Ids in findings are positions in the input counted from 0, in the order of the file; lines of the file are counted from 1.
 
 use crate::model::words::listed;
-use crate::model::{Lines, Point2, Pslg, SegmentId, VertexId};
+use crate::model::{Lines, Point2, Point3, Pslg, SegmentId, VertexId};
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use std::fmt;
 
@@ -154,6 +154,8 @@ pub struct Finding {
     pub elements: Vec<Element>,
     /// Where: points in input units; that of a crossing is rounded.
     pub coordinates: Vec<Point2>,
+    /// Where in space: points in input units. Of a finding in the plane none.
+    pub places: Vec<Point3>,
     /// Lines of the file, one-based, of those elements whose line is known.
     pub lines: Vec<u32>,
     /// One sentence.
@@ -164,7 +166,13 @@ impl Finding {
     /// A finding about some elements at some places; the lines are looked up.
     pub fn new(kind: Kind, elements: Vec<Element>, coordinates: Vec<Point2>, lines: &Lines, message: String) -> Self {
         let lines = elements.iter().filter_map(|e| e.line(lines)).collect();
-        Finding { kind, elements, coordinates, lines, message }
+        Finding { kind, elements, coordinates, places: Vec::new(), lines, message }
+    }
+
+    /// A finding about a point of space. Its line is known if it is positive.
+    pub fn in_space(kind: Kind, v: VertexId, at: Point3, line: u32, message: String) -> Self {
+        let lines = [line].into_iter().filter(|&l| l > 0).collect();
+        Finding { kind, elements: vec![Element::Vertex(v)], coordinates: Vec::new(), places: vec![at], lines, message }
     }
 
     /// What follows from it.
@@ -237,7 +245,9 @@ impl Serialize for Finding {
         s.serialize_field("severity", &self.severity())?;
         s.serialize_field("kind", &self.kind)?;
         s.serialize_field("elements", &self.elements)?;
-        s.serialize_field("coordinates", &self.coordinates.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>())?;
+        let plane = self.coordinates.iter().map(|p| p.to_array().to_vec());
+        let space = self.places.iter().map(|p| p.to_array().to_vec());
+        s.serialize_field("coordinates", &plane.chain(space).collect::<Vec<_>>())?;
         s.serialize_field("line", &self.lines.first())?;
         s.serialize_field("lines", &self.lines)?;
         s.serialize_field("message", &self.message)?;
@@ -310,6 +320,7 @@ impl Findings {
                     kind,
                     elements: Vec::new(),
                     coordinates: Vec::new(),
+                    places: Vec::new(),
                     lines: Vec::new(),
                     message: format!("{more}{} more of this kind, {more}{count} in all", count - listed),
                 });

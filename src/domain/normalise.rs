@@ -54,7 +54,7 @@ impl Scale {
 }
 
 /// 2^k.
-fn power_of_two(k: i32) -> f64 {
+pub(super) fn power_of_two(k: i32) -> f64 {
     by_power_of_two(1.0, k)
 }
 

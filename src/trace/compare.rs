@@ -31,15 +31,15 @@ impl Divergence {
         let deep = self.field.strip_prefix("why.").map(|f| f.split(['.', '[']).next().unwrap_or(""));
         match (top, deep) {
             ("", _) => "one run does something else altogether, or has ended",
-            ("format" | "version" | "algorithm" | "parameters" | "level" | "fill", _) => {
+            ("format" | "version" | "algorithm" | "parameters" | "level" | "fill" | "weighted" | "permuted" | "scale", _) => {
                 "the runs were asked for different things, or promise different things"
             }
             (
                 "vertex" | "segment" | "hole" | "region" | "marker" | "attributes" | "attribute" | "toggles"
-                | "max_area",
+                | "max_area" | "weight" | "input",
                 _,
             ) if self.event.is_none() => "the inputs differ",
-            ("start" | "triangle", _) => {
+            ("start" | "triangle" | "simplex" | "apexes", _) => {
                 "the initial triangulations differ: a predicate or a tie was decided differently"
             }
             ("why", Some("t" | "cause")) | ("t" | "cause" | "h", _) => {
@@ -51,8 +51,8 @@ impl Divergence {
             ("why", Some("s")) => "another subsegment is in the way: the walk differs",
             ("why", Some("a")) | ("p", _) => "the point was constructed differently: a choice, or its rounding",
             ("why", _) => "the reasons of the step differ",
-            ("destroyed" | "created" | "id", _) => {
-                "the same step changes other triangles: a predicate or a tie was decided differently"
+            ("destroyed" | "created" | "id" | "first" | "flood" | "cell" | "of" | "by", _) => {
+                "the same step changes other simplices: a predicate or a tie was decided differently"
             }
             ("reason" | "apex", _) => "the same triangle is left for another reason",
             _ => "the ends differ",
@@ -140,7 +140,7 @@ pub fn first_divergence<R: BufRead, S: BufRead>(
         b_bytes.clear();
         binary::encode(x, &state, &mut a_bytes);
         binary::encode(y, &state, &mut b_bytes);
-        let digests_differ = matches!((x, y), (Record::End(x), Record::End(y)) if x.trace != y.trace);
+        let digests_differ = x.trace_digest() != y.trace_digest();
         if a_bytes != b_bytes || digests_differ {
             return Ok(Some(locate(number, a.as_ref(), b.as_ref(), &state)));
         }
@@ -160,7 +160,7 @@ fn locate(record: u64, first: Option<&Record>, second: Option<&Record>, state: &
     let mut path = String::new();
     let (x, y) = descend(a.as_ref(), b.as_ref(), &mut path);
     let show = |v: Option<&Value>| v.map_or_else(|| "nothing".to_string(), Value::to_string);
-    let event = matches!(first, Some(Record::Event(_))).then_some(state.events);
+    let event = first.is_some_and(Record::is_event).then_some(state.events);
     Divergence { record, event, field: path, first: show(x), second: show(y), lines }
 }
 

@@ -1,6 +1,8 @@
 //! The order in which records stand, and which ids they may name. Both forms and both directions obey it, so that a record that one of
 //! them can express the other can express too. What a record claims about geometry is the checker's to judge.
 
+use super::space::grammar::State3;
+use super::space::Record3;
 use super::record::{Algorithm, Cause, End, Event, Record, SkipReason, SplitKind, Why};
 use crate::model::{Edge, Point2, Triangle, VertexId};
 
@@ -8,6 +10,8 @@ use crate::model::{Edge, Point2, Triangle, VertexId};
 #[derive(Clone, Debug, Default)]
 pub(super) struct State {
     stage: Stage,
+    /// Of a trace of space.
+    pub(super) space: State3,
     /// The id that the next vertex will get; every id named must be below it.
     pub(super) next: u32,
     /// The number that the next event will get.
@@ -34,7 +38,7 @@ enum Stage {
 impl State {
     /// Whether the last record was read or written.
     pub(super) fn ended(&self) -> bool {
-        self.stage == Stage::Ended
+        self.stage == Stage::Ended || self.space.ended()
     }
 
     /// The part of the trace that the next record belongs to: `header`, `input` or `start`; `end` after the last one; else `None`: an event is due, or the end.
@@ -52,7 +56,7 @@ impl State {
     pub(super) fn check(&self, record: &Record) -> Result<(), &'static str> {
         match record {
             Record::Header(header) => {
-                holds(self.stage == Stage::Fresh, "a second header")?;
+                holds(self.stage == Stage::Fresh && self.space.is_fresh(), "a second header")?;
                 match &header.algorithm {
                     Algorithm::Delaunay => Ok(()),
                     Algorithm::Gcdr(p) => {
@@ -100,6 +104,10 @@ impl State {
                 self.running()?;
                 self.end(end)
             }
+            Record::Space(record) => {
+                holds(self.stage == Stage::Fresh, "a record of space in a trace of the plane")?;
+                self.space.check(record)
+            }
         }
     }
 
@@ -132,6 +140,10 @@ impl State {
                 }
             }
             Record::End(_) => self.stage = Stage::Ended,
+            Record::Space(record) => {
+                self.events += u64::from(matches!(record, Record3::Event(_)));
+                self.space.advance(record);
+            }
         }
     }
 
@@ -224,10 +236,15 @@ fn sized(cause: &Cause) -> Result<(), &'static str> {
     }
 }
 
+/// Whether all are finite.
+pub(super) fn finite_numbers(numbers: &[f64]) -> Result<(), &'static str> {
+    holds(numbers.iter().all(|x| x.is_finite()), "a number is not finite")
+}
+
 fn finite(p: Point2) -> Result<(), &'static str> {
     holds(p.x.is_finite() && p.y.is_finite(), "a coordinate is not finite")
 }
 
-fn holds(fact: bool, otherwise: &'static str) -> Result<(), &'static str> {
+pub(super) fn holds(fact: bool, otherwise: &'static str) -> Result<(), &'static str> {
     if fact { Ok(()) } else { Err(otherwise) }
 }

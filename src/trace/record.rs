@@ -1,5 +1,6 @@
 //! What a trace says, record by record. `docs/trace-format.md` is the normative text.
 
+use super::space::Record3;
 use crate::model::{Edge, Fill, GcdrParameters, Level, Point2, Region, Segment, SegmentId, Triangle, VertexId};
 
 /// One record of a trace. A trace is: header, vertices, segments, holes, regions, start, its triangles, events, end.
@@ -33,6 +34,33 @@ pub enum Record {
     Event(Event),
     /// The last record.
     End(End),
+    /// A record of a triangulation of space; then all are.
+    Space(Record3),
+}
+
+impl Record {
+    /// The digest of the trace, of an end record.
+    pub fn trace_digest(&self) -> Option<&str> {
+        match self {
+            Record::End(end) => Some(&end.trace),
+            Record::Space(Record3::End(end)) => Some(&end.trace),
+            _ => None,
+        }
+    }
+
+    /// An end record with this digest of the trace; any other record as it is.
+    #[must_use]
+    pub fn with_trace_digest(mut self, digest: &str) -> Record {
+        if let Record::End(End { trace, .. }) | Record::Space(Record3::End(super::space::End3 { trace, .. })) = &mut self {
+            *trace = digest.to_string();
+        }
+        self
+    }
+
+    /// Whether it is an event.
+    pub fn is_event(&self) -> bool {
+        matches!(self, Record::Event(_) | Record::Space(Record3::Event(_)))
+    }
 }
 
 /// The head of a trace.

@@ -97,15 +97,13 @@ impl<W: Write> Writer<W> {
 impl<W: Write> Sink for Writer<W> {
     fn record(&mut self, record: &Record) -> io::Result<()> {
         let refuse = |why| io::Error::new(io::ErrorKind::InvalidInput, why);
-        if let Record::End(end) = record {
+        if record.trace_digest().is_some() {
             self.ledger.state.check(record).map_err(refuse)?;
             let before = self.ledger.state.clone();
             self.ledger.enter(record).map_err(refuse)?;
             let digest = self.ledger.digest();
-            let mut end = end.clone();
-            end.trace.clone_from(&digest);
             if self.format == Format::Text {
-                text::encode(&Record::End(end), &before, &mut self.line);
+                text::encode(&record.clone().with_trace_digest(&digest), &before, &mut self.line);
             }
             binary::put_digest(&mut self.ledger.pending, &digest);
             self.digest = Some(digest);
@@ -258,7 +256,7 @@ impl<R: BufRead> Reader<R> {
         };
         let mut bytes = &self.buffer[self.at..self.at + length];
         let start = self.ledger.enter(&record).map_err(|why| DecodeError::Malformed(place, why.into()))?;
-        if let Record::End(_) = record {
+        if record.trace_digest().is_some() {
             // The 32 bytes of the digest of the trace, which `enter` leaves out; decoding to hexadecimal and back loses nothing.
             bytes = &bytes[..length - 32];
         }
@@ -286,11 +284,9 @@ impl<R: BufRead> Reader<R> {
         let Some((b'\n', line)) = self.buffer.split_last() else {
             return Err(DecodeError::Truncated(place));
         };
-        let record = text::decode(line).map_err(malformed)?;
+        let record = text::decode(line, &self.ledger.state).map_err(malformed)?;
         self.ledger.state.check(&record).map_err(|why| malformed(why.into()))?;
-        if let Record::End(end) = &record
-            && !is_digest(&end.trace)
-        {
+        if record.trace_digest().is_some_and(|digest| !is_digest(digest)) {
             return Err(malformed("the digest of the trace is not 64 lowercase hexadecimal digits".into()));
         }
         self.line.clear();

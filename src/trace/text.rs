@@ -4,6 +4,7 @@
 //! spelling; the reader then writes what it understood and accepts only the same bytes.
 
 use super::grammar::State;
+use super::space;
 use super::record::{Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, Shell, SkipReason, SplitKind, Why};
 use crate::model::{Edge, GcdrParameters, Point2, Region, Segment, SegmentId, Triangle, VertexId};
 use serde::Serialize;
@@ -56,11 +57,22 @@ pub(super) fn encode(record: &Record, state: &State, out: &mut String) {
         }
         Record::Event(event) => put_event(out, event, state.events),
         Record::End(end) => put_end(out, end),
+        Record::Space(record) => {
+            if let space::Record3::Header(_) = record {
+                put_format(out);
+            }
+            space::text::encode(record, state.events, state.space.size, out);
+        }
     }
 }
 
-fn put_header(out: &mut String, header: &Header) {
+/// The keys that every header starts with.
+fn put_format(out: &mut String) {
     put(out, format_args!("{{\"format\":\"orthoball-trace\",\"version\":{}", super::binary::VERSION));
+}
+
+fn put_header(out: &mut String, header: &Header) {
+    put_format(out);
     match &header.algorithm {
         Algorithm::Delaunay => out.push_str(",\"algorithm\":\"delaunay\""),
         Algorithm::Gcdr(parameters) => {
@@ -182,7 +194,7 @@ fn put_ids(out: &mut String, ids: &[VertexId]) {
     put_list(out, ids, |out, v| put(out, format_args!("{}", v.0)));
 }
 
-fn put_list<T>(out: &mut String, list: &[T], mut one: impl FnMut(&mut String, &T)) {
+pub(super) fn put_list<T>(out: &mut String, list: &[T], mut one: impl FnMut(&mut String, &T)) {
     out.push('[');
     for (i, x) in list.iter().enumerate() {
         if i > 0 {
@@ -194,11 +206,11 @@ fn put_list<T>(out: &mut String, list: &[T], mut one: impl FnMut(&mut String, &T
 }
 
 /// The shortest decimal that reads back as `x`; see the normative text for its spelling.
-fn put_f64(out: &mut String, x: f64) {
+pub(super) fn put_f64(out: &mut String, x: f64) {
     put(out, format_args!("{x:?}"));
 }
 
-fn put(out: &mut String, what: std::fmt::Arguments) {
+pub(super) fn put(out: &mut String, what: std::fmt::Arguments) {
     // Writing to a string cannot fail.
     out.write_fmt(what).expect("a string takes all");
 }
@@ -218,17 +230,20 @@ fn put_json(out: &mut String, value: &impl Serialize) {
     out.push_str(std::str::from_utf8(&bytes).expect("JSON is UTF-8"));
 }
 
-type Refusal = String;
+pub(super) type Refusal = String;
 
 /// Decodes a line, its line feed taken off.
-pub(super) fn decode(line: &[u8]) -> Result<Record, Refusal> {
+pub(super) fn decode(line: &[u8], state: &State) -> Result<Record, Refusal> {
     let value: Value = serde_json::from_slice(line).map_err(|e| format!("not JSON: {e}"))?;
     let Value::Object(object) = value else {
         return Err("not a JSON object".into());
     };
     let o = Object(object);
     if o.has("format") {
-        return header(&o).map(Record::Header);
+        return header(&o);
+    }
+    if !state.space.is_fresh() {
+        return space::text::decode(&o).map(Record::Space);
     }
     if o.has("event") {
         return event(&o);
@@ -258,7 +273,7 @@ pub(super) fn decode(line: &[u8]) -> Result<Record, Refusal> {
     Err("no record has these keys".into())
 }
 
-fn header(o: &Object) -> Result<Header, Refusal> {
+fn header(o: &Object) -> Result<Record, Refusal> {
     if o.get::<String>("format")? != "orthoball-trace" {
         return Err("not a trace: `format` is not \"orthoball-trace\"".into());
     }
@@ -269,9 +284,11 @@ fn header(o: &Object) -> Result<Header, Refusal> {
     let algorithm = match o.get::<String>("algorithm")?.as_str() {
         "delaunay" => Algorithm::Delaunay,
         "gcdr" => Algorithm::Gcdr(o.get::<GcdrParameters>("parameters")?),
+        "regular" => return Ok(Record::Space(space::Record3::Header(space::text::header(o)?))),
         other => return Err(format!("algorithm {other:?} is not known")),
     };
-    Ok(Header { algorithm, level: if o.has("level") { Some(o.get("level")?) } else { None }, fill: o.get("fill")? })
+    let level = if o.has("level") { Some(o.get("level")?) } else { None };
+    Ok(Record::Header(Header { algorithm, level, fill: o.get("fill")? }))
 }
 
 fn event(o: &Object) -> Result<Record, Refusal> {
@@ -356,16 +373,24 @@ fn end(o: &Object) -> Result<End, Refusal> {
 }
 
 /// A JSON object with typed look-up.
-struct Object(Map<String, Value>);
+pub(super) struct Object(Map<String, Value>);
 
 impl Object {
-    fn has(&self, key: &str) -> bool {
+    pub(super) fn has(&self, key: &str) -> bool {
         self.0.contains_key(key)
     }
 
-    fn get<T: serde::de::DeserializeOwned>(&self, key: &str) -> Result<T, Refusal> {
+    pub(super) fn get<T: serde::de::DeserializeOwned>(&self, key: &str) -> Result<T, Refusal> {
         let value = self.0.get(key).ok_or_else(|| format!("`{key}` is missing"))?;
         T::deserialize(value).map_err(|e| format!("`{key}`: {e}"))
+    }
+
+    /// The object under a key.
+    pub(super) fn object(&self, key: &str) -> Result<Object, Refusal> {
+        match self.0.get(key) {
+            Some(Value::Object(o)) => Ok(Object(o.clone())),
+            _ => Err(format!("`{key}` is not an object")),
+        }
     }
 
     fn point(&self, key: &str) -> Result<Point2, Refusal> {

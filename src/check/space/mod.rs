@@ -1,11 +1,42 @@
-//! Space: what the checker of traces and the audit of meshes both state about tetrahedra.
+//! The checker of triangulations of space.
+//!
+//! Problem: a trace claims that a complex of tetrahedra is *the* weighted Delaunay triangulation of its points, finished (`start`) or step by
+//! step (events). Idea: a finished one is proved at once (`certificate`); each event then changes a part, and what is tested there proves the whole again
+//! (`insert`, `fill`). Orthoballs are tested by their definition, from the orthocenter (`predicates`). Under strict verification the one tie-break
+//! decides ties, so that there is one triangulation to accept, and what else is a choice is proved too: order, names, apexes.
+//!
+//! **Lower dimensions.** Where the points span d < 3 dimensions, 3 - d apexes off their hull make a point set of dimension 3. The points' triangulation
+//! is the link of the apexes: every tetrahedron must contain all of them, and every point lie in the hull of the first simplex. The power test against a
+//! tetrahedron is then that in the points' own hull, ties included: the coefficients of the apexes vanish.
 //!
 //! | file | says |
 //! |---|---|
 //! | `predicates` | orientation, orthosphere, the one tie-break |
 //! | `double` | numbers of twice the digits, for near ties |
+//! | `ball` | the same seen from one vertex; seldom tests |
 //! | `glue` | which cells share a facet |
+//! | `complex` | cells and links |
+//! | `certificate` | a finished triangulation |
+//! | `insert`, `fill` | insertion and removal |
+//! | `hidden` | what became of each point |
+//! | `replay` | events |
+//! | `claims` | counts, the digest, the triangulation as data |
+//! | `checker` | records |
 
+mod ball;
+mod certificate;
+mod checker;
+mod claims;
+mod complex;
 pub(crate) mod double;
+mod fill;
 pub mod glue;
+mod hidden;
+mod insert;
 pub mod predicates;
+mod replay;
+
+#[cfg(test)]
+mod tests;
+
+pub(super) use checker::Checker3;

@@ -58,7 +58,7 @@ fn depth<N: Number>(t: &Corners, q: &WeightedPoint) -> N {
 
 /// The sign of a value that is off by less than 20 2^-53 `size`.
 #[inline]
-fn certain(value: f64, size: f64) -> Option<Sign> {
+pub(super) fn certain(value: f64, size: f64) -> Option<Sign> {
     const TINY: f64 = 1e-300;
     let error = size * (f64::EPSILON * 10.0) + TINY;
     if value > error {

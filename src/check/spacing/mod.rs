@@ -167,7 +167,7 @@ impl Spacing {
             }
             Record::Vertex { at, .. } => self.points.push(*at),
             Record::Segment(s) => self.segments.push(s.ends),
-            Record::Hole(_) | Record::Region(_) => {}
+            Record::Hole(_) | Record::Region(_) | Record::Space(_) => {}
             Record::Start { .. } => self.start()?,
             Record::Triangle(t) => self.neighbors(*t)?,
             Record::Event(event) => {

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::model::{Edge, GcdrParameters, Point2, Region, Segment, SegmentId, Triangle, VertexId, canonical_triangle};
+use crate::trace::space::{self, Record3};
 use crate::trace::record::{Algorithm, Cause, Counts, End, Event, Header, Record, Shell, SkipReason, SplitKind, Why};
 
 /// Why no record could be decoded.
@@ -20,7 +21,7 @@ pub(in crate::trace) fn decode(bytes: &[u8], state: &State) -> Result<(Record, u
     Ok((record, cursor.at))
 }
 
-struct Cursor<'a> {
+pub(in crate::trace) struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
 }
@@ -28,9 +29,12 @@ struct Cursor<'a> {
 impl Cursor<'_> {
     fn record(&mut self, state: &State) -> Result<Record, Fault> {
         if self.bytes.first() == Some(&MAGIC[0]) {
-            return self.header().map(Record::Header);
+            return self.header();
         }
         let kind = self.byte()?;
+        if !state.space.is_fresh() {
+            return space::binary::decode(kind, self, &state.space).map(Record::Space);
+        }
         Ok(match kind {
             tag::VERTEX | tag::VERTEX_MARKED => {
                 let at = self.point()?;
@@ -143,7 +147,7 @@ impl Cursor<'_> {
     }
 
     /// An id written as the distance up from `base`.
-    fn above(&mut self, base: u32) -> Result<VertexId, Fault> {
+    pub(in crate::trace) fn above(&mut self, base: u32) -> Result<VertexId, Fault> {
         let up = self.u32()?;
         match base.checked_add(up) {
             Some(id) => Ok(VertexId(id)),
@@ -151,7 +155,7 @@ impl Cursor<'_> {
         }
     }
 
-    fn header(&mut self) -> Result<Header, Fault> {
+    fn header(&mut self) -> Result<Record, Fault> {
         if self.take(MAGIC.len())? != MAGIC {
             return self.bad("not a trace: the first four bytes are not 89 4f 42 54");
         }
@@ -159,8 +163,12 @@ impl Cursor<'_> {
         if version != VERSION {
             return self.bad(format!("version {version} of the format; this program reads version {VERSION}"));
         }
-        if self.byte()? != tag::HEADER {
-            return self.bad("the header is missing");
+        match self.byte()? {
+            tag::HEADER => {}
+            space::binary::tag::HEADER => {
+                return space::binary::header(self).map(|h| Record::Space(Record3::Header(h)));
+            }
+            _ => return self.bad("the header is missing"),
         }
         let level = self.choice(&LEVELS)?;
         let fill = self.choice(&FILLS)?;
@@ -169,7 +177,7 @@ impl Cursor<'_> {
             1 => Algorithm::Gcdr(self.parameters()?),
             _ => return self.bad("no algorithm has this number"),
         };
-        Ok(Header { algorithm, level, fill })
+        Ok(Record::Header(Header { algorithm, level, fill }))
     }
 
     fn parameters(&mut self) -> Result<GcdrParameters, Fault> {
@@ -226,19 +234,19 @@ impl Cursor<'_> {
         Ok(End { outcome, stop_reason, level_effective, counts, mesh: self.digest()?, trace: self.digest()? })
     }
 
-    fn digest(&mut self) -> Result<String, Fault> {
+    pub(in crate::trace) fn digest(&mut self) -> Result<String, Fault> {
         let digit = |v: u8| char::from(if v < 10 { b'0' + v } else { b'a' + v - 10 });
         Ok(self.take(32)?.iter().flat_map(|b| [digit(b >> 4), digit(b & 15)]).collect())
     }
 
-    fn choice<T: Copy>(&mut self, all: &[T]) -> Result<T, Fault> {
+    pub(in crate::trace) fn choice<T: Copy>(&mut self, all: &[T]) -> Result<T, Fault> {
         match all.get(usize::from(self.byte()?)) {
             Some(one) => Ok(*one),
             None => self.bad("no variant has this number"),
         }
     }
 
-    fn list<T>(&mut self, least: usize, one: impl Fn(&mut Self) -> Result<T, Fault>) -> Result<Vec<T>, Fault> {
+    pub(in crate::trace) fn list<T>(&mut self, least: usize, one: impl Fn(&mut Self) -> Result<T, Fault>) -> Result<Vec<T>, Fault> {
         let count = self.count(least)?;
         let mut list = Vec::with_capacity(count);
         for _ in 0..count {
@@ -258,19 +266,19 @@ impl Cursor<'_> {
         Ok(Point2::new(self.f64()?, self.f64()?))
     }
 
-    fn f64(&mut self) -> Result<f64, Fault> {
+    pub(in crate::trace) fn f64(&mut self) -> Result<f64, Fault> {
         let mut bits = [0; 8];
         bits.copy_from_slice(self.take(8)?);
         let x = f64::from_bits(u64::from_le_bytes(bits));
         if x.is_finite() { Ok(x) } else { self.bad("a number that is not finite") }
     }
 
-    fn signed(&mut self) -> Result<i32, Fault> {
+    pub(in crate::trace) fn signed(&mut self) -> Result<i32, Fault> {
         let x = self.u32()?;
         Ok((x >> 1) as i32 ^ -((x & 1) as i32))
     }
 
-    fn u32(&mut self) -> Result<u32, Fault> {
+    pub(in crate::trace) fn u32(&mut self) -> Result<u32, Fault> {
         match u32::try_from(self.u64()?) {
             Ok(x) => Ok(x),
             Err(_) => self.bad("a number beyond 32 bits"),
@@ -293,11 +301,11 @@ impl Cursor<'_> {
         self.bad("a number beyond 64 bits")
     }
 
-    fn byte(&mut self) -> Result<u8, Fault> {
+    pub(in crate::trace) fn byte(&mut self) -> Result<u8, Fault> {
         Ok(self.take(1)?[0])
     }
 
-    fn take(&mut self, n: usize) -> Result<&[u8], Fault> {
+    pub(in crate::trace) fn take(&mut self, n: usize) -> Result<&[u8], Fault> {
         let rest = &self.bytes[self.at..];
         if rest.len() < n {
             return Err(Fault::Short);
@@ -306,7 +314,7 @@ impl Cursor<'_> {
         Ok(&rest[..n])
     }
 
-    fn bad<T>(&self, why: impl Into<String>) -> Result<T, Fault> {
+    pub(in crate::trace) fn bad<T>(&self, why: impl Into<String>) -> Result<T, Fault> {
         Err(Fault::Bad(self.at, why.into()))
     }
 }

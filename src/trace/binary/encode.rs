@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::model::{GcdrParameters, Point2, Region, Segment, Triangle, VertexId};
+use crate::trace::space;
 use crate::trace::record::{Algorithm, Cause, End, Event, Header, Record, Shell, SkipReason, SplitKind, Why};
 
 /// Appends the binary form of a record that `state` admits; of an end, all but the digest of the trace.
@@ -44,6 +45,13 @@ pub(in crate::trace) fn encode(record: &Record, state: &State, out: &mut Vec<u8>
         }
         Record::Event(event) => put_event(out, event, state.next),
         Record::End(end) => put_end(out, end),
+        Record::Space(record) => {
+            if let space::Record3::Header(_) = record {
+                out.extend_from_slice(&MAGIC);
+                out.push(VERSION);
+            }
+            space::binary::encode(record, &state.space, out);
+        }
     }
 }
 
@@ -227,15 +235,15 @@ fn put_point(out: &mut Vec<u8>, p: Point2) {
     put_f64(out, p.y);
 }
 
-fn put_f64(out: &mut Vec<u8>, x: f64) {
+pub(in crate::trace) fn put_f64(out: &mut Vec<u8>, x: f64) {
     out.extend_from_slice(&x.to_bits().to_le_bytes());
 }
 
-fn put_signed(out: &mut Vec<u8>, x: i32) {
+pub(in crate::trace) fn put_signed(out: &mut Vec<u8>, x: i32) {
     put(out, u64::from((x << 1 ^ x >> 31) as u32));
 }
 
-fn put(out: &mut Vec<u8>, mut x: u64) {
+pub(in crate::trace) fn put(out: &mut Vec<u8>, mut x: u64) {
     while x >= 0x80 {
         out.push(x as u8 | 0x80);
         x >>= 7;

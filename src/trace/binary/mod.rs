@@ -5,8 +5,8 @@
 //! third vertex says all. Decoding is lenient where it can be (a number in too many bytes, a shared edge that is not the first): the
 //! reader encodes what it decoded and accepts only the same bytes, which makes the form canonical without a rule told twice.
 
-mod decode;
-mod encode;
+pub(super) mod decode;
+pub(super) mod encode;
 
 pub(in crate::trace) use decode::{Fault, decode};
 pub(in crate::trace) use encode::{encode, put_digest};

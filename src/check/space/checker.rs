@@ -1,0 +1,235 @@
+//! From records of space to a verdict.
+
+use super::certificate::euler_characteristic;
+use super::claims;
+use super::complex::number;
+use super::replay::Replay;
+use crate::check::checker::Options;
+use crate::check::scale::power_of_two;
+use crate::check::verdict::{Checked, Place, Rejection, Rule, broken, ensure, placed};
+use crate::model::{Triangulation3, WeightedPoint};
+use crate::trace::{Event3, Record3, triangulation_digest};
+
+/// Takes a trace of space record by record. Memory: the complex.
+#[derive(Clone, Debug)]
+pub struct Checker3 {
+    options: Options,
+    stage: Stage,
+    permuted: bool,
+    /// Input units = scaled units times 2 to this power.
+    scale: i32,
+    /// Where points stood in the input, if that is told.
+    inputs: Vec<u32>,
+    replay: Replay,
+    apexes: Vec<crate::trace::Apex>,
+    simplices_left: u32,
+    last: Option<crate::model::Tetrahedron>,
+    events: u64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Stage {
+    Fresh,
+    Domain,
+    Start,
+    Events,
+    Ended,
+}
+
+impl Checker3 {
+    /// A checker that expects a header.
+    pub fn new(options: Options) -> Checker3 {
+        Checker3 {
+            options,
+            stage: Stage::Fresh,
+            permuted: false,
+            scale: 0,
+            inputs: Vec::new(),
+            replay: Replay::new(options.strict),
+            apexes: Vec::new(),
+            simplices_left: 0,
+            last: None,
+            events: 0,
+        }
+    }
+
+    /// Events so far.
+    pub fn events(&self) -> u64 {
+        self.events
+    }
+
+    /// Whether the end was accepted.
+    pub fn ended(&self) -> bool {
+        self.stage == Stage::Ended
+    }
+
+    /// Takes the next record.
+    pub fn push(&mut self, record: &Record3) -> Result<(), Rejection> {
+        let place = match record {
+            Record3::Header(_) => Place::Header,
+            Record3::Vertex { .. } | Record3::Weight { .. } => Place::Domain,
+            Record3::Start { .. } | Record3::Simplex(_) => Place::Start,
+            Record3::Event(_) => Place::Event(self.events),
+            Record3::End(_) => Place::End,
+        };
+        self.take(record).map_err(|b| placed(b, place))
+    }
+
+    /// The triangulation after the last record, input units; proved as far as the records were.
+    pub fn triangulation(&self) -> Triangulation3 {
+        claims::triangulation(&self.replay, &self.inputs, |p| self.unscaled(p))
+    }
+
+    fn take(&mut self, record: &Record3) -> Checked {
+        match record {
+            Record3::Header(header) => {
+                self.at(Stage::Fresh, Stage::Fresh)?;
+                ensure(header.scale.abs() <= 870, Rule::Header, || {
+                    ("a scale within 2^-870..2^870", format!("{}", header.scale))
+                })?;
+                (self.scale, self.permuted) = (header.scale, header.permuted);
+                self.replay.weighted = header.weighted;
+                self.stage = Stage::Domain;
+                Ok(())
+            }
+            Record3::Vertex { point, input } => {
+                self.at(Stage::Domain, Stage::Events)?;
+                self.replay.check_settled()?;
+                let sane = input.is_some() == self.permuted && (self.replay.weighted || point.weight == 0.0);
+                ensure(sane, Rule::Header, || ("weights and places in the input as the header says", format!("{point:?}")))?;
+                ensure(self.replay.points.len() < i32::MAX as usize - 4, Rule::Domain, || {
+                    ("fewer than 2^31 points", "more")
+                })?;
+                let scaled = self.scaled(*point)?;
+                self.inputs.extend(*input);
+                self.replay.mesh.add_point(scaled);
+                self.replay.points.add();
+                Ok(())
+            }
+            Record3::Weight { id, weight } => {
+                self.at(Stage::Events, Stage::Events)?;
+                self.replay.check_settled()?;
+                ensure(self.replay.weighted, Rule::Header, || ("weights as the header says", "a weight"))?;
+                let known = id.index() < self.replay.points.len();
+                ensure(known, Rule::Domain, || ("a point of the trace", format!("{id:?}")))?;
+                let v = number(*id);
+                let mut point = self.unscaled(self.replay.mesh.point(v));
+                point.weight = *weight;
+                self.replay.reweighted = Some((v, self.scaled(point)?.weight));
+                Ok(())
+            }
+            Record3::Start { apexes, simplices } => {
+                self.at(Stage::Domain, Stage::Domain)?;
+                self.stage = Stage::Start;
+                ensure(apexes.len() <= 3, Rule::Dimension, || ("at most three apexes", format!("{}", apexes.len())))?;
+                self.apexes.clone_from(apexes);
+                self.replay.set_apexes(apexes);
+                self.simplices_left = *simplices;
+                if *simplices == 0 {
+                    self.stage = Stage::Events;
+                    self.replay.set_apexes(&[]);
+                }
+                Ok(())
+            }
+            Record3::Simplex(t) => {
+                self.at(Stage::Start, Stage::Start)?;
+                let own = &t[..4 - self.apexes.len()];
+                let canonical = match own {
+                    [a, b, c, d] => a < b && b < c.min(d) && c != d,
+                    own => own.is_sorted_by(|a, b| a < b),
+                };
+                ensure(canonical && self.last.is_none_or(|l| l < *t), Rule::Canonical, || {
+                    ("canonical simplices, ascending", format!("{t:?}"))
+                })?;
+                self.last = Some(*t);
+                self.replay.add_simplex(*t)?;
+                self.simplices_left -= 1;
+                if self.simplices_left > 0 {
+                    return Ok(());
+                }
+                self.stage = Stage::Events;
+                self.replay.prove(&self.apexes)
+            }
+            Record3::Event(event) => {
+                self.at(Stage::Events, Stage::Events)?;
+                self.event(event)?;
+                self.events += 1;
+                Ok(())
+            }
+            Record3::End(end) => {
+                self.at(Stage::Events, Stage::Events)?;
+                self.stage = Stage::Ended;
+                claims::check_points(&self.replay)?;
+                let own = claims::counts(&self.replay);
+                ensure(end.counts == own, Rule::Counts, || (format!("{own:?}"), format!("{:?}", end.counts)))?;
+                self.check_inputs()?;
+                if self.options.strict {
+                    claims::check_hidden_differ(&self.replay)?;
+                    let euler = if self.replay.is_empty() { 0 } else { euler_characteristic(&self.replay.mesh) };
+                    ensure(euler == 0, Rule::Euler, || ("0", format!("{euler}")))?;
+                }
+                if self.options.digests {
+                    let own = triangulation_digest(&self.triangulation());
+                    ensure(end.mesh == own, Rule::Digest, || (own.clone(), end.mesh.clone()))?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// An event. Ids beyond the points are refused here, so that numbers may be used as they are.
+    fn event(&mut self, event: &Event3) -> Checked {
+        let (id, other) = match event {
+            Event3::Insert { id, .. } | Event3::Hide { id, .. } => (*id, *id),
+            Event3::Duplicate { id, of } => (*id, *of),
+            Event3::Succeed { id, by } => (*id, *by),
+            Event3::Remove { id, .. } | Event3::Raise { id, .. } | Event3::Lower { id, .. } => (*id, *id),
+        };
+        for v in [id, other] {
+            let known = v.index() < self.replay.points.len();
+            ensure(known, Rule::Domain, || ("a point of the trace", format!("{v:?}")))?;
+        }
+        self.replay.event(event)
+    }
+
+    /// Records stand in one order.
+    fn at(&mut self, from: Stage, to: Stage) -> Checked {
+        ensure(from <= self.stage && self.stage <= to, Rule::Stream, || {
+            ("header, vertices, start, simplices, events, end", format!("a record of {from:?} at {:?}", self.stage))
+        })
+    }
+
+    /// The places in the input are those of a permutation.
+    fn check_inputs(&self) -> Checked {
+        let mut seen = vec![false; self.inputs.len()];
+        for &k in &self.inputs {
+            match seen.get_mut(k as usize) {
+                Some(first @ false) => *first = true,
+                _ => return broken(Rule::Domain, "each place in the input once", format!("{k}")),
+            }
+        }
+        Ok(())
+    }
+
+    /// A stored point, scaled: no -0, of full precision, in range.
+    fn scaled(&self, p: WeightedPoint) -> Checked<WeightedPoint> {
+        let (down, up) = (power_of_two(-self.scale), power_of_two(self.scale));
+        let scaled = WeightedPoint { at: p.at * down, weight: p.weight * down * down };
+        let sane = |x: f64, s: f64, back: f64, least: i32, greatest: i32| {
+            let in_range = s == 0.0 || (power_of_two(least)..=power_of_two(greatest)).contains(&s.abs());
+            x.is_finite() && in_range && back == x && x.to_bits() != (-0.0f64).to_bits()
+        };
+        let coordinates = p.at.to_array().into_iter().zip(scaled.at.to_array());
+        let good = coordinates.into_iter().all(|(x, s)| sane(x, s, s * up, -142, 200));
+        ensure(good && sane(p.weight, scaled.weight, scaled.weight * up * up, -284, 400), Rule::Coordinate, || {
+            ("coordinates within 2^-142..2^200 of the input's size, weights within the squares of that, or +0", format!("{p:?}"))
+        })?;
+        Ok(scaled)
+    }
+
+    /// The way back, exact.
+    fn unscaled(&self, p: WeightedPoint) -> WeightedPoint {
+        let up = power_of_two(self.scale);
+        WeightedPoint { at: p.at * up, weight: p.weight * up * up }
+    }
+}

@@ -1,0 +1,194 @@
+//! What became of each point, and which tetrahedron a hidden one is in.
+//!
+//! While points are only inserted a hidden one stays hidden: the lower hull only goes down. So where it is matters first when a vertex is
+//! taken out; from then on each tetrahedron has a list of the hidden points in it, which move with insertions, and which a removal sets free.
+
+use super::certificate::{Ties, conflict};
+use super::complex::{Complex, FIRST, NONE, id};
+use crate::check::verdict::{Checked, Rule, broken};
+use std::collections::BTreeMap;
+
+/// What became of a point; others are named by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// Nothing yet.
+    Unplaced,
+    /// A vertex.
+    Vertex,
+    /// Hidden.
+    Hidden,
+    /// That point stands for it.
+    Duplicate(u32),
+    /// Taken out.
+    Removed,
+    /// Set free by a removal: the events that follow place it.
+    Free,
+}
+
+/// All points.
+#[derive(Clone, Debug, Default)]
+pub struct Points {
+    /// By number less `FIRST`.
+    states: Vec<State>,
+    /// The duplicates of a point, ascending; without empty lists.
+    pub duplicates: BTreeMap<u32, Vec<u32>>,
+    /// Points that wait for the events that place them, in the order these must have.
+    pub free: Vec<u32>,
+    /// The first point that may still be unplaced.
+    next: usize,
+    lists: Option<Lists>,
+}
+
+/// Hidden points by tetrahedron: linked lists.
+#[derive(Clone, Debug, Default)]
+struct Lists {
+    first: Vec<u32>,
+    next: Vec<u32>,
+    /// The tetrahedron of a hidden point.
+    place: Vec<u32>,
+}
+
+impl Lists {
+    fn attach(&mut self, c: u32, h: u32) {
+        let (c, k) = (c as usize, (h - FIRST) as usize);
+        self.first.resize(self.first.len().max(c + 1), NONE);
+        self.next.resize(self.next.len().max(k + 1), NONE);
+        self.place.resize(self.next.len(), NONE);
+        self.place[k] = c as u32;
+        self.next[k] = self.first[c];
+        self.first[c] = h;
+    }
+
+    fn take(&mut self, c: u32, out: &mut Vec<u32>) {
+        let Some(first) = self.first.get_mut(c as usize) else { return };
+        let mut h = std::mem::replace(first, NONE);
+        while h != NONE {
+            out.push(h);
+            h = self.next[(h - FIRST) as usize];
+        }
+    }
+}
+
+impl Points {
+    /// Adds a point that no event has placed.
+    pub fn add(&mut self) {
+        self.states.push(State::Unplaced);
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.states.len()
+    }
+
+    /// What became of a point. A number of none is as if removed.
+    pub fn state(&self, v: u32) -> State {
+        let k = v.checked_sub(FIRST).map(|k| k as usize);
+        k.and_then(|k| self.states.get(k)).copied().unwrap_or(State::Removed)
+    }
+
+    /// Sets what became of a point; one that waited waits no more.
+    pub fn set(&mut self, v: u32, state: State) {
+        let k = (v - FIRST) as usize;
+        if self.states[k] == State::Free {
+            self.free.retain(|&w| w != v);
+        }
+        self.states[k] = state;
+        if state == State::Free {
+            self.free.push(v);
+        }
+    }
+
+    /// All with their numbers.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, State)> + '_ {
+        (FIRST..).zip(self.states.iter().copied())
+    }
+
+    /// The point that must be placed next: the first that was set free, else the first unplaced one.
+    pub fn due(&mut self) -> Option<u32> {
+        if let Some(&v) = self.free.first() {
+            return Some(v);
+        }
+        while self.states.get(self.next).is_some_and(|s| *s != State::Unplaced) {
+            self.next += 1;
+        }
+        (self.next < self.states.len()).then_some(self.next as u32 + FIRST)
+    }
+
+    /// Begins to keep lists, if there are none.
+    pub fn keep_lists(&mut self, mesh: &Complex) -> Checked {
+        if self.lists.is_some() {
+            return Ok(());
+        }
+        let mut lists = Lists::default();
+        let mut from = mesh.tetrahedra().next();
+        for (h, _) in self.iter().filter(|(_, s)| *s == State::Hidden) {
+            from = from.and_then(|c| mesh.locate(c, mesh.at(h)));
+            let Some(c) = from else {
+                return broken(Rule::Hidden, "a tetrahedron that contains the point", format!("none at {:?}", id(h)));
+            };
+            lists.attach(c, h);
+        }
+        self.lists = Some(lists);
+        Ok(())
+    }
+
+    /// The complex was made anew: every hidden point is looked for, and set free where it is in no tetrahedron, or in conflict.
+    pub fn renew_lists(&mut self, mesh: &Complex, ties: Ties) {
+        let mut lists = Lists::default();
+        let first = mesh.tetrahedra().next();
+        let mut from = first;
+        for h in self.hidden() {
+            let found = from.and_then(|c| mesh.locate(c, mesh.at(h)));
+            match found.filter(|&c| !conflict(mesh, c, h, ties)) {
+                Some(c) => lists.attach(c, h),
+                None => self.set(h, State::Free),
+            }
+            from = found.or(first);
+        }
+        self.lists = Some(lists);
+    }
+
+    /// The hidden points, ascending.
+    fn hidden(&self) -> Vec<u32> {
+        self.iter().filter(|(_, s)| *s == State::Hidden).map(|(h, _)| h).collect()
+    }
+
+    /// Notes that a point is hidden in tetrahedron c.
+    pub fn hide(&mut self, h: u32, c: u32) {
+        self.set(h, State::Hidden);
+        if let Some(lists) = &mut self.lists {
+            lists.attach(c, h);
+        }
+    }
+
+    /// A hidden point is hidden no more, or another takes its place in the list.
+    pub fn unhide(&mut self, h: u32, instead: Option<u32>) {
+        let Some(lists) = &mut self.lists else { return };
+        let c = lists.place[(h - FIRST) as usize];
+        let mut held = Vec::new();
+        lists.take(c, &mut held);
+        held.into_iter().filter(|&v| v != h).chain(instead).for_each(|v| lists.attach(c, v));
+    }
+
+    /// The hidden points in cells that are no more.
+    pub fn loose(&mut self, slots: impl Iterator<Item = u32>) -> Vec<u32> {
+        let mut loose = Vec::new();
+        if let Some(lists) = &mut self.lists {
+            slots.for_each(|c| lists.take(c, &mut loose));
+        }
+        loose.sort_unstable();
+        loose
+    }
+
+    /// Hidden points go to the tetrahedra that contain them now, near cell c.
+    pub fn settle(&mut self, loose: &[u32], c: u32, mesh: &Complex) -> Checked {
+        let Some(lists) = &mut self.lists else { return Ok(()) };
+        for &h in loose {
+            let Some(c) = mesh.locate(c, mesh.at(h)) else {
+                return broken(Rule::Hidden, "a tetrahedron that contains the point", format!("none at {:?}", id(h)));
+            };
+            lists.attach(c, h);
+        }
+        Ok(())
+    }
+}
