@@ -169,6 +169,8 @@ fn change(record: &mut Record, draw: &mut impl Draw) {
         Record::Hole(at) => place(at, draw),
         Record::Region(region) => place(&mut region.seed, draw),
         Record::Start { triangles } => *triangles = draw.below(64),
+        // Traces of space are changed by `mutations3`.
+        Record::Space(_) => {}
         Record::Triangle(t) => triangle(t, draw),
         Record::Event(event) => change_event(event, draw),
         Record::End(end) => match draw.below(4) {

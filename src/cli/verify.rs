@@ -45,12 +45,14 @@ pub fn run(args: &VerifyArgs) -> Answer {
     while let Some(record) = reader.next() {
         let judged = match record {
             Ok(record) => judge.record(&record).and_then(|()| match &record {
-                record if !args.no_digest && record.trace_digest().is_some_and(|d| d != reader.digest()) => Err(Rejection {
-                    event: "end".into(),
-                    rule: "Digest".into(),
-                    expected: reader.digest(),
-                    found: record.trace_digest().unwrap_or_default().to_string(),
-                }),
+                record if !args.no_digest && record.trace_digest().is_some_and(|d| d != reader.digest()) => {
+                    Err(Rejection {
+                        event: "end".into(),
+                        rule: "Digest".into(),
+                        expected: reader.digest(),
+                        found: record.trace_digest().unwrap_or_default().to_string(),
+                    })
+                }
                 _ => Ok(()),
             }),
             Err(DecodeError::Io(e)) => return Err(Failure::at(&args.trace, e)),

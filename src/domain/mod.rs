@@ -16,7 +16,7 @@ mod validate;
 pub use angles::{SmallAngle, angle_notes, small_angles};
 pub use finding::{Element, Finding, Findings, Kind, LISTED_PER_KIND, Severity, merge_findings};
 pub use normalise::{GREATEST_COORDINATE, LARGEST_SCALE, LEAST_COORDINATE, Scale, normalise};
-pub use normalise3::{GREATEST_WEIGHT, LEAST_WEIGHT, normalise3};
+pub use normalise3::{GREATEST_WEIGHT, LEAST_WEIGHT, normalise3, normalise3_at};
 pub use validate::{Prepared, prepare};
 
 #[cfg(test)]

@@ -66,6 +66,22 @@ pub fn normalise3(set: &PointSet3) -> Result<(Vec<WeightedPoint>, Scale), Vec<Fi
     if findings.any_error() { Err(findings.finish()) } else { Ok((normal, scale)) }
 }
 
+/// A single point at a given scale. Errors: a finding if it is not finite or out of range.
+pub fn normalise3_at(p: WeightedPoint, id: VertexId, scale: Scale) -> Result<WeightedPoint, Finding> {
+    let beyond = |x: f64| by_power_of_two(x.abs(), -scale.exponent) > power_of_two(super::GREATEST_COORDINATE);
+    let far = || {
+        let large = p.at.to_array().into_iter().any(beyond);
+        large.then(|| (Kind::OutOfRange, format!("has a coordinate far beyond the scale 2^{}", scale.exponent)))
+    };
+    match refusal(p, scale).or_else(far) {
+        None => Ok(scale.to_normal3(p)),
+        Some((kind, why)) => {
+            let message = format!("point {} at ({:e}, {:e}, {:e}) {why}", id.0, p.at.x, p.at.y, p.at.z);
+            Err(Finding::in_space(kind, id, p.at, 0, message))
+        }
+    }
+}
+
 /// Why a point cannot be computed with.
 fn refusal(p: WeightedPoint, scale: Scale) -> Option<(Kind, String)> {
     if !p.at.is_finite() {

@@ -2,6 +2,7 @@
 
 pub mod gcdr;
 mod level;
+pub mod regular;
 mod run;
 mod triangulate;
 

@@ -31,9 +31,11 @@ impl Divergence {
         let deep = self.field.strip_prefix("why.").map(|f| f.split(['.', '[']).next().unwrap_or(""));
         match (top, deep) {
             ("", _) => "one run does something else altogether, or has ended",
-            ("format" | "version" | "algorithm" | "parameters" | "level" | "fill" | "weighted" | "permuted" | "scale", _) => {
-                "the runs were asked for different things, or promise different things"
-            }
+            (
+                "format" | "version" | "algorithm" | "parameters" | "level" | "fill" | "weighted" | "permuted"
+                | "scale",
+                _,
+            ) => "the runs were asked for different things, or promise different things",
             (
                 "vertex" | "segment" | "hole" | "region" | "marker" | "attributes" | "attribute" | "toggles"
                 | "max_area" | "weight" | "input",

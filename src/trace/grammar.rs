@@ -1,9 +1,9 @@
 //! The order in which records stand, and which ids they may name. Both forms and both directions obey it, so that a record that one of
 //! them can express the other can express too. What a record claims about geometry is the checker's to judge.
 
-use super::space::grammar::State3;
-use super::space::Record3;
 use super::record::{Algorithm, Cause, End, Event, Record, SkipReason, SplitKind, Why};
+use super::space::Record3;
+use super::space::grammar::State3;
 use crate::model::{Edge, Point2, Triangle, VertexId};
 
 /// Where a trace stands between two records: all that the next record's form depends on.

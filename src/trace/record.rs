@@ -51,7 +51,9 @@ impl Record {
     /// An end record with this digest of the trace; any other record as it is.
     #[must_use]
     pub fn with_trace_digest(mut self, digest: &str) -> Record {
-        if let Record::End(End { trace, .. }) | Record::Space(Record3::End(super::space::End3 { trace, .. })) = &mut self {
+        if let Record::End(End { trace, .. }) | Record::Space(Record3::End(super::space::End3 { trace, .. })) =
+            &mut self
+        {
             *trace = digest.to_string();
         }
         self

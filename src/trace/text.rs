@@ -4,8 +4,8 @@
 //! spelling; the reader then writes what it understood and accepts only the same bytes.
 
 use super::grammar::State;
-use super::space;
 use super::record::{Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, Shell, SkipReason, SplitKind, Why};
+use super::space;
 use crate::model::{Edge, GcdrParameters, Point2, Region, Segment, SegmentId, Triangle, VertexId};
 use serde::Serialize;
 use serde_json::{Map, Value, ser::Formatter};

@@ -44,9 +44,8 @@ impl Ball {
     /// From the other three corners.
     #[inline]
     pub fn new(u: &Row, v: &Row, w: &Row) -> Ball {
-        let cross = |[ux, uy, uz]: [f64; 3], [vx, vy, vz]: [f64; 3]| {
-            [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx]
-        };
+        let cross =
+            |[ux, uy, uz]: [f64; 3], [vx, vy, vz]: [f64; 3]| [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
         let [vw, wu, uv] = [cross(v.to, w.to), cross(w.to, u.to), cross(u.to, v.to)];
         let c = [0, 1, 2].map(|k: usize| u.lift * vw[k] + v.lift * wu[k] + w.lift * uv[k]);
         let d = u.to[0] * vw[0] + u.to[1] * vw[1] + u.to[2] * vw[2];

@@ -11,8 +11,8 @@
 //! at each edge of its boundary it is convex (Tietze), and it holds all vertices: it is their hull. By (5) the lifted complex is convex at every facet, thus convex:
 //! the lower hull of the lifted vertices.
 
-use super::complex::{Complex, INFINITE};
 use super::ball::{Ball, Row, across, side_from_middle};
+use super::complex::{Complex, INFINITE};
 use super::glue::{BORDER, facet, glue};
 use super::predicates::{exact_side, in_conflict, orient, side, tie_in_conflict};
 use crate::check::verdict::{Checked, Rule, broken, ensure};

@@ -96,7 +96,9 @@ impl Checker3 {
                 self.at(Stage::Domain, Stage::Events)?;
                 self.replay.check_settled()?;
                 let sane = input.is_some() == self.permuted && (self.replay.weighted || point.weight == 0.0);
-                ensure(sane, Rule::Header, || ("weights and places in the input as the header says", format!("{point:?}")))?;
+                ensure(sane, Rule::Header, || {
+                    ("weights and places in the input as the header says", format!("{point:?}"))
+                })?;
                 ensure(self.replay.points.len() < i32::MAX as usize - 4, Rule::Domain, || {
                     ("fewer than 2^31 points", "more")
                 })?;
@@ -222,7 +224,10 @@ impl Checker3 {
         let coordinates = p.at.to_array().into_iter().zip(scaled.at.to_array());
         let good = coordinates.into_iter().all(|(x, s)| sane(x, s, s * up, -142, 200));
         ensure(good && sane(p.weight, scaled.weight, scaled.weight * up * up, -284, 400), Rule::Coordinate, || {
-            ("coordinates within 2^-142..2^200 of the input's size, weights within the squares of that, or +0", format!("{p:?}"))
+            (
+                "coordinates within 2^-142..2^200 of the input's size, weights within the squares of that, or +0",
+                format!("{p:?}"),
+            )
         })?;
         Ok(scaled)
     }

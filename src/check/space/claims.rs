@@ -53,7 +53,11 @@ pub fn counts(replay: &Replay) -> Counts3 {
 
 /// The triangulation, named by the input: `inputs` says where each point stood, and is empty if ids do. Of points of the same place and weight the first of the
 /// input stands for all. `unscaled` gives a point in input units.
-pub fn triangulation(replay: &Replay, inputs: &[u32], unscaled: impl Fn(WeightedPoint) -> WeightedPoint) -> Triangulation3 {
+pub fn triangulation(
+    replay: &Replay,
+    inputs: &[u32],
+    unscaled: impl Fn(WeightedPoint) -> WeightedPoint,
+) -> Triangulation3 {
     let place = |v: u32| inputs.get((v - FIRST) as usize).copied().unwrap_or(v - FIRST);
     // Whom each number is called by.
     let mut name: Vec<u32> = (0..replay.mesh.vertex_count()).map(|v| if v < FIRST { v } else { place(v) }).collect();

@@ -93,9 +93,7 @@ pub fn fill(mesh: &mut Complex, v: u32, star: &[(u32, Cell)], apexes: &[VertexId
 impl Filling {
     fn open_facet(&mut self, corners: [u32; 3], outer: u32) -> Checked {
         let before = self.by_corners.insert(ascending(corners), self.open.len());
-        ensure(before.is_none(), Rule::Star, || {
-            ("a facet of the hole once", format!("{:?} twice", corners.map(id)))
-        })?;
+        ensure(before.is_none(), Rule::Star, || ("a facet of the hole once", format!("{:?} twice", corners.map(id))))?;
         self.open.push(Open { corners, outer, closed: false });
         Ok(())
     }

@@ -8,9 +8,9 @@
 //! destroyed facets of the hull for sum, which (3) makes disjoint from the old hull and each other. So with (1) everything is covered once. By (4) the new body is
 //! convex, by (5) the lifted complex is. A vertex of (6) is on no lower hull: from p through it one comes into the old one.
 
+use super::ball::{Ball, Row};
 use super::certificate::{Ties, check_convex};
 use super::complex::{Cell, Complex, FIRST, INFINITE, NONE, id};
-use super::ball::{Ball, Row};
 use super::predicates::{Corners, exact_side, in_conflict, orient, side, tie_in_conflict};
 use crate::check::verdict::{Checked, Rule, broken, ensure};
 use crate::model::{Sign, Tetrahedron, WeightedPoint};

@@ -1,11 +1,11 @@
 //! The replay: one function per kind of event. Each proves the facts of its event and then changes the complex.
 
+use super::ball::{apexes_of, independent};
 use super::certificate::{Ties, conflict, prove};
 use super::complex::{Complex, FIRST, INFINITE, NONE, id, number};
 use super::fill::{fill, take_star};
 use super::hidden::{Points, State};
 use super::insert::Cavity;
-use super::ball::{apexes_of, independent};
 use super::predicates::orient;
 use crate::check::verdict::{Checked, Rule, broken, ensure};
 use crate::model::{Point3, Sign, Tetrahedron, VertexId};
@@ -134,9 +134,10 @@ impl Replay {
         if let Some((v, _)) = self.reweighted {
             return broken(Rule::Order, format!("an event that takes out {:?}", id(v)), "another record");
         }
-        self.points.free.first().map_or(Ok(()), |&v| {
-            broken(Rule::Order, format!("an event that places {:?}", id(v)), "another record")
-        })
+        self.points
+            .free
+            .first()
+            .map_or(Ok(()), |&v| broken(Rule::Order, format!("an event that places {:?}", id(v)), "another record"))
     }
 
     /// That a point may be placed now: one that is free or unplaced, strictly the one that is due.
@@ -291,7 +292,9 @@ impl Replay {
         ensure(alone, Rule::Duplicate, || ("a duplicate to succeed", format!("{:?} removed", id(v))))?;
         let state = self.points.state(v);
         if state != State::Vertex {
-            ensure(created.is_empty(), Rule::Star, || ("no apexes for a point that is no vertex", format!("{created:?}")))?;
+            ensure(created.is_empty(), Rule::Star, || {
+                ("no apexes for a point that is no vertex", format!("{created:?}"))
+            })?;
         }
         match state {
             State::Vertex => return self.remove_vertex(v, created),

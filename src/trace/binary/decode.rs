@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::model::{Edge, GcdrParameters, Point2, Region, Segment, SegmentId, Triangle, VertexId, canonical_triangle};
-use crate::trace::space::{self, Record3};
 use crate::trace::record::{Algorithm, Cause, Counts, End, Event, Header, Record, Shell, SkipReason, SplitKind, Why};
+use crate::trace::space::{self, Record3};
 
 /// Why no record could be decoded.
 #[derive(Debug, PartialEq, Eq)]
@@ -246,7 +246,11 @@ impl Cursor<'_> {
         }
     }
 
-    pub(in crate::trace) fn list<T>(&mut self, least: usize, one: impl Fn(&mut Self) -> Result<T, Fault>) -> Result<Vec<T>, Fault> {
+    pub(in crate::trace) fn list<T>(
+        &mut self,
+        least: usize,
+        one: impl Fn(&mut Self) -> Result<T, Fault>,
+    ) -> Result<Vec<T>, Fault> {
         let count = self.count(least)?;
         let mut list = Vec::with_capacity(count);
         for _ in 0..count {

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::model::{GcdrParameters, Point2, Region, Segment, Triangle, VertexId};
-use crate::trace::space;
 use crate::trace::record::{Algorithm, Cause, End, Event, Header, Record, Shell, SkipReason, SplitKind, Why};
+use crate::trace::space;
 
 /// Appends the binary form of a record that `state` admits; of an end, all but the digest of the trace.
 pub(in crate::trace) fn encode(record: &Record, state: &State, out: &mut Vec<u8>) {

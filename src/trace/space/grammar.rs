@@ -50,7 +50,10 @@ impl State3 {
             Record3::Vertex { point, input } => {
                 holds(whole, "a vertex among the simplices of `start`")?;
                 finite(*point)?;
-                holds(self.weighted || point.weight.to_bits() == 0, "a weight where the header says that there is none")?;
+                holds(
+                    self.weighted || point.weight.to_bits() == 0,
+                    "a weight where the header says that there is none",
+                )?;
                 let told = input.is_some() == self.permuted;
                 holds(told, "a vertex says where it stood exactly if the header says so")?;
                 holds(self.vertices < VERTICES, "too many vertices")

@@ -183,7 +183,11 @@ fn cell(o: &Object, key: &str) -> Result<Tetrahedron, Refusal> {
 fn ids(o: &Object, key: &str) -> Result<Vec<VertexId>, Refusal> {
     let numbers: Vec<i32> = o.get(key)?;
     let known = numbers.iter().all(|&n| n >= SPECIAL as i32);
-    if known { Ok(numbers.into_iter().map(|n| VertexId(n as u32)).collect()) } else { Err(format!("`{key}`: an id below -4")) }
+    if known {
+        Ok(numbers.into_iter().map(|n| VertexId(n as u32)).collect())
+    } else {
+        Err(format!("`{key}`: an id below -4"))
+    }
 }
 
 fn apexes(o: &Object) -> Result<Vec<Apex>, Refusal> {
