@@ -67,7 +67,7 @@ pub fn normalise3(set: &PointSet3) -> Result<(Vec<WeightedPoint>, Scale), Vec<Fi
 }
 
 /// A single point at a given scale. Errors: a finding if it is not finite or out of range.
-pub fn normalise3_at(p: WeightedPoint, id: VertexId, scale: Scale) -> Result<WeightedPoint, Finding> {
+pub fn normalise3_at(p: WeightedPoint, id: VertexId, scale: Scale) -> Result<WeightedPoint, Box<Finding>> {
     let beyond = |x: f64| by_power_of_two(x.abs(), -scale.exponent) > power_of_two(super::GREATEST_COORDINATE);
     let far = || {
         let large = p.at.to_array().into_iter().any(beyond);
@@ -77,7 +77,7 @@ pub fn normalise3_at(p: WeightedPoint, id: VertexId, scale: Scale) -> Result<Wei
         None => Ok(scale.to_normal3(p)),
         Some((kind, why)) => {
             let message = format!("point {} at ({:e}, {:e}, {:e}) {why}", id.0, p.at.x, p.at.y, p.at.z);
-            Err(Finding::in_space(kind, id, p.at, 0, message))
+            Err(Box::new(Finding::in_space(kind, id, p.at, 0, message)))
         }
     }
 }

@@ -45,7 +45,7 @@ impl<'a, K: Kernel3> Session<'a, K> {
     /// Inserts a point, input units; it gets the next id. Errors: `Range`, with the session as it was; `Io`.
     pub fn insert(&mut self, p: WeightedPoint) -> Result<VertexId, RunError> {
         let next = VertexId(self.triangulation.point_count() as u32);
-        let normal = normalise3_at(p, next, self.scale).map_err(|finding| RunError::Range(vec![finding]))?;
+        let normal = normalise3_at(p, next, self.scale).map_err(|finding| RunError::Range(vec![*finding]))?;
         let point = self.scale.to_input3(normal);
         self.sink.record(&Record::Space(Record3::Vertex { point, input: None }))?;
         let before = self.triangulation.dimension();

@@ -140,15 +140,15 @@ impl State3 {
     fn event(&self, event: &Event3) -> Result<(), &'static str> {
         match event {
             Event3::Insert { id, first, .. } => {
-                self.new(*id)?;
+                self.placeable(*id)?;
                 self.cell(first)
             }
             Event3::Hide { id, cell } => {
-                self.new(*id)?;
+                self.placeable(*id)?;
                 self.cell(cell)
             }
             Event3::Duplicate { id, of } => {
-                self.new(*id)?;
+                self.placeable(*id)?;
                 self.placed(*of)
             }
             Event3::Remove { id, created } => {
@@ -160,7 +160,7 @@ impl State3 {
                 self.placed(*by)
             }
             Event3::Raise { id, apexes } => {
-                self.new(*id)?;
+                self.placeable(*id)?;
                 few(apexes)
             }
             Event3::Lower { id, apexes } => {
@@ -171,7 +171,7 @@ impl State3 {
     }
 
     /// A point that an event may place: the next one, or one placed before.
-    fn new(&self, id: VertexId) -> Result<(), &'static str> {
+    fn placeable(&self, id: VertexId) -> Result<(), &'static str> {
         holds(id.0 < self.vertices, "no vertex has this id yet")?;
         // Vertices that `start` leaves out may have any smaller id.
         holds(id.0 <= self.cursor, "an event passes over a vertex")
