@@ -12,7 +12,8 @@
 
 use orthoball::arith::FastKernel;
 use orthoball::arith::scale::{by_power_of_two, exponent_of};
-use orthoball::model::{Point3, WeightedPoint};
+use orthoball::generators::{Draw, SplitMix64};
+use orthoball::model::{Point3, VertexId, WeightedPoint};
 use orthoball::triangulation::regular3::{Change, Regular3};
 use std::error::Error;
 use std::io::Read;
@@ -67,6 +68,16 @@ fn sizes(t: &Regular3<FastKernel>) -> [usize; 2] {
     [t.vertex_count(), t.cells().filter(|&c| t.is_finite(c)).count()]
 }
 
+/// A random order of 0..n (Fisher and Yates, seed 9), as in `oracle/cgal/space_bench.cpp`.
+fn shuffled(n: usize) -> Vec<u32> {
+    let mut draw = SplitMix64(9);
+    let mut order: Vec<u32> = (0..n as u32).collect();
+    for i in (1..n).rev() {
+        order.swap(i, (draw.take(8) % (i as u64 + 1)) as usize);
+    }
+    order
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -79,6 +90,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         ["build-wall", path, threads] => {
             let (points, threads) = (read_points(path, 0)?, threads.parse()?);
             measure(true, || Regular3::<FastKernel>::build(&points, threads), sizes);
+        }
+        ["remove", path, count] => {
+            let points = read_points(path, 0)?;
+            let mut t = Regular3::<FastKernel>::build(&points, 1);
+            let order = shuffled(points.len());
+            let count = order.len().min(count.parse()?);
+            let mut change = Change::default();
+            measure(
+                false,
+                || order[..count].iter().for_each(|&id| t.remove(VertexId(id), &mut change)),
+                |()| [count, 0],
+            );
         }
         ["insert", path] => {
             let points = read_points(path, 0)?;

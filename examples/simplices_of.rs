@@ -77,10 +77,9 @@ fn solve(case: &Case, threads: usize) -> Result<Regular3<FastKernel>, Box<dyn Er
                     return Err(format!("{}: point {id:?} got the id {inserted:?}", case.name).into());
                 }
             }
+            1 => t.remove(id, &mut change),
             _ => {
-                return Err(
-                    format!("{}: edits of weight {weight} and exponent {exponent} come later", case.name).into()
-                );
+                t.set_weight(id, by_power_of_two(weight, -2 * exponent), &mut change);
             }
         }
     }

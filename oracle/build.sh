@@ -6,7 +6,7 @@ out=../target/oracle
 mkdir -p "$out"
 case ${1:-plane} in
   plane) programs="sets bench mesh" headers="common.hpp mesh.hpp" ;;
-  space) programs="space_sets space_bench" headers="space.hpp" ;;
+  space) programs="space_sets space_bench space_mesh" headers="space.hpp" ;;
 esac
 for name in $programs; do
   # shellcheck disable=SC2086
