@@ -295,6 +295,15 @@ impl Shares {
         fast.values.len() as u64
     }
 
+    /// Adds the counts of another family.
+    pub fn add(&mut self, other: &Shares) {
+        for (name, counts) in &other.0 {
+            for (total, count) in self.0.entry(name).or_default().iter_mut().zip(counts) {
+                *total += count;
+            }
+        }
+    }
+
     pub fn print(&self) {
         for (name, counts) in self.0.iter().filter(|(_, counts)| counts[1..].iter().any(|&n| n > 0)) {
             println!("    {name}: {counts:?}");
@@ -348,7 +357,7 @@ fn the_plain_kernel_is_found_out() {
 }
 
 /// A polynomial in an infinitesimal, by ascending powers.
-type Infinitesimal = Vec<Rational>;
+pub(super) type Infinitesimal = Vec<Rational>;
 
 fn product(a: &Infinitesimal, b: &Infinitesimal) -> Infinitesimal {
     let mut c = vec![Rational::new(); a.len() + b.len() - 1];
@@ -360,7 +369,7 @@ fn product(a: &Infinitesimal, b: &Infinitesimal) -> Infinitesimal {
     c
 }
 
-fn determinant(m: &[Vec<Infinitesimal>]) -> Infinitesimal {
+pub(super) fn determinant(m: &[Vec<Infinitesimal>]) -> Infinitesimal {
     if m.len() == 1 {
         return m[0][0].clone();
     }

@@ -1,11 +1,11 @@
 //! The law of two kernels: the same answer to every call, bit for bit.
 
-use crate::arith::{Corners, ExactKernel, FastKernel, Kernel, OutOfRange, angle, scale};
+use super::answer::{Answers, assert_equal};
+use crate::arith::{Corners, ExactKernel, FastKernel, Kernel, angle, scale};
 use crate::domain::{GREATEST_COORDINATE, LEAST_COORDINATE};
 use crate::generators::{Bytes, Draw};
-use crate::model::{Point2, Sign};
+use crate::model::Point2;
 use arbitrary::{Arbitrary, Result, Unstructured};
-use std::cmp::Ordering;
 
 /// Six points and the parameters of the kernel's methods, all within its contract.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,71 +26,10 @@ pub struct KernelCase {
     pub cos2: f64,
 }
 
-/// One answer of a kernel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Answer {
-    Sign(Sign),
-    Yes(bool),
-    Order(Ordering),
-    Exponent(i32),
-    Bits(u64),
-    Point(u64, u64),
-    OutOfRange,
-}
-
-impl From<Sign> for Answer {
-    fn from(value: Sign) -> Answer {
-        Answer::Sign(value)
-    }
-}
-
-impl From<bool> for Answer {
-    fn from(value: bool) -> Answer {
-        Answer::Yes(value)
-    }
-}
-
-impl From<Ordering> for Answer {
-    fn from(value: Ordering) -> Answer {
-        Answer::Order(value)
-    }
-}
-
-impl From<i32> for Answer {
-    fn from(value: i32) -> Answer {
-        Answer::Exponent(value)
-    }
-}
-
-impl From<f64> for Answer {
-    fn from(value: f64) -> Answer {
-        Answer::Bits(value.to_bits())
-    }
-}
-
-impl From<Point2> for Answer {
-    fn from(value: Point2) -> Answer {
-        Answer::Point(value.x.to_bits(), value.y.to_bits())
-    }
-}
-
-impl From<std::result::Result<Point2, OutOfRange>> for Answer {
-    fn from(value: std::result::Result<Point2, OutOfRange>) -> Answer {
-        value.map_or(Answer::OutOfRange, Answer::from)
-    }
-}
-
-/// The answers of a kernel, named.
-type Answers = Vec<(&'static str, Answer)>;
-
 impl KernelCase {
     /// Asserts that the fast kernel answers as the exact one.
     pub fn run(&self) {
-        let (fast, exact) = (self.answers::<FastKernel>(), self.answers::<ExactKernel>());
-        for (f, e) in fast.iter().zip(&exact) {
-            assert_eq!(f, e, "{self:?}");
-        }
-        assert_eq!(fast.len(), exact.len(), "{self:?}");
+        assert_equal(&self.answers::<FastKernel>(), &self.answers::<ExactKernel>(), self);
     }
 
     /// All answers of a kernel.
@@ -197,7 +136,7 @@ pub(super) fn fitted(x: f64) -> f64 {
 }
 
 /// x moved by some units in the last place.
-fn moved(x: f64, ulps: i32) -> f64 {
+pub(super) fn moved(x: f64, ulps: i32) -> f64 {
     let step = if ulps < 0 { f64::next_down } else { f64::next_up };
     (0..ulps.abs()).fold(x, |x, _| step(x))
 }

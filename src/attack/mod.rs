@@ -5,6 +5,7 @@
 //! and the ordinary tests replay their corpora. Cases draw from `generators`, so that mutated bytes stay ties, near-ties and changes of scale.
 //!
 //! - `KernelCase`: every method of the fast kernel gives the bits of the exact one.
+//! - `KernelCase3`: the same in space.
 //! - `CdtCase`: a triangulation under insertions, splits, deletions and rollbacks equals a fresh build and the definition.
 //! - `GcdrCase`: both kernels write the same trace, the strict checker accepts it, both forms of it read back.
 //! - `MutatedTraceCase`: of a true trace with one record changed, or with bytes changed, the strict checker accepts none.
@@ -12,9 +13,11 @@
 //! - `MutatedMeshCase`: the audit calls a changed mesh right exactly if it is.
 //! - `readers`: any bytes are read or refused; what was read, written, and read again is the same.
 
+mod answer;
 mod audits;
 mod cdt;
 mod kernels;
+mod kernels3;
 mod mutations;
 pub mod readers;
 mod readers3;
@@ -24,6 +27,7 @@ mod users;
 pub use audits::MutatedMeshCase;
 pub use cdt::{CdtCase, Step as CdtStep};
 pub use kernels::KernelCase;
+pub use kernels3::KernelCase3;
 pub use mutations::MutatedTraceCase;
 pub use refinement::GcdrCase;
 pub use users::UserCase;

@@ -3,12 +3,14 @@
 //! As in `arith::agreement`: `ORTHOBALL_CASES` sets the number of cases a family, `-- --nocapture` shows counts. A case has some thirty answers.
 
 use super::kernel3::{ConstructionError, Kernel3, WeightedCorners};
-use crate::arith::agreement::{Answers, Draws, Shares, bits, cases};
+use super::{filter3, fixed3, poly3};
+use crate::arith::agreement::{Answers, Draws, Infinitesimal, Shares, bits, cases, determinant};
 use crate::arith::exact::ExactKernel;
 use crate::arith::fast::FastKernel;
 use crate::arith::plain::PlainKernel;
-use crate::arith::{round, stages};
+use crate::arith::{Dyadic, round, stages};
 use crate::model::{Point3, Sign, WeightedPoint};
+use rug::Rational;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Family {
@@ -232,6 +234,15 @@ impl Case {
         say("at_fraction3", point(between));
         say("distance", bits(K::distance(a, b)));
         say("distance to it", bits(K::distance(a, between)));
+        // Ties that are none in double-double: the same squares added in another order.
+        let turned = |p: Point3| Point3::new(p.y, p.z, p.x);
+        let flat = [Point3::ZERO, Point3::new(a.x, a.y, 0.0), Point3::new(0.0 - a.y, a.x, 0.0)];
+        say("compare_lengths3 of equals", format!("{:?}", K::compare_lengths3(a, b, turned(a), turned(b))));
+        say("in_diametral_ball of a tie", format!("{:?}", K::in_diametral_ball(a, Point3::ZERO - a, turned(a))));
+        if flat[0] != flat[1] {
+            let order = K::compare_radius_edge_of_triangle(flat, 0.5);
+            say("compare_radius_edge_of_triangle of a tie", format!("{order:?}"));
+        }
         if a != b {
             say("power_side_of_edge", format!("{:?}", K::power_side_of_edge(p, q, r)));
             say("short_radius_below", bits(K::short_radius_below(a, b, self.scale)));
@@ -306,7 +317,7 @@ fn maybe_point(p: Result<Point3, ConstructionError>) -> String {
 
 #[test]
 fn fast_and_exact_agree_to_the_bit() {
-    let mut compared = 0;
+    let (mut compared, mut all) = (0, Shares::default());
     for family in FAMILIES {
         let mut shares = Shares::default();
         for number in 0..cases() / 4 {
@@ -319,8 +330,145 @@ fn fast_and_exact_agree_to_the_bit() {
             "{family:?}: answers by running filter, by double-double, by exact integers, by integers of fixed width"
         );
         shares.print();
+        all.add(&shares);
     }
     println!("{compared} answers compared");
+    every_stage_is_reached(&all);
+}
+
+/// Each stage of each method answered something; inlined filters and the double-doubles of constructions are not counted.
+fn every_stage_is_reached(all: &Shares) {
+    for (name, stages) in [
+        ("orient3d", &[1, 2, 3][..]),
+        ("in_sphere", &[1, 2, 3]),
+        ("power_side", &[1, 2, 3]),
+        ("power_side_of_triangle", &[0, 1, 2]),
+        ("power_side_of_edge", &[0, 1, 2]),
+        ("in_diametral_ball", &[0, 1]),
+        ("in_diametral_ball of a tie", &[1, 2]),
+        ("in_equatorial_ball", &[0, 1, 2]),
+        ("compare_lengths3", &[0, 1]),
+        ("compare_lengths3 of equals", &[1, 2]),
+        ("compare_power_distances", &[0, 1, 2]),
+        ("compare_orthoradius2", &[0, 1, 2]),
+        ("compare_orthoradii", &[0, 1, 2]),
+        ("compare_radius_edge", &[0, 1, 2]),
+        ("compare_radius_edge_of_triangle", &[0, 1]),
+        ("compare_radius_edge_of_triangle of a tie", &[1, 2]),
+        ("orthocenter_side", &[0, 1, 2]),
+        ("at_fraction3", &[2]),
+        ("orthocenter", &[2]),
+        ("orthocenter_of_triangle", &[2]),
+        ("dual_line_meets_plane", &[2]),
+        ("sphere_meets_segment", &[0, 1, 2]),
+        ("distance", &[2]),
+        ("circumradius", &[2]),
+        ("short_radius_below", &[0, 1]),
+    ] {
+        for &stage in stages {
+            assert!(all.0[name][stage] > 0, "{name} never came to stage {stage}: {:?}", all.0[name]);
+        }
+    }
+}
+
+/// The inlined filters answer nearly all of what is random, and nothing that is zero.
+#[test]
+fn filters_answer() {
+    let (mut asked, mut answered) = (0, [0; 3]);
+    for number in 0..500 {
+        let case = Case::new(Family::Random, number);
+        let [p, q, r, s, x, ..] = case.p;
+        let t = [p, q, r, s];
+        asked += 1;
+        answered[0] += u32::from(filter3::orient3d(q.at, r.at, s.at, x.at).is_some());
+        answered[1] += u32::from(filter3::in_sphere(bare(t), x.at).is_some());
+        answered[2] += u32::from(filter3::power_side(t, x).is_some());
+        assert_eq!(filter3::orient3d(p.at, q.at, r.at, p.at), None);
+        assert_eq!(filter3::in_sphere(bare(t), q.at), None);
+    }
+    assert!(answered.into_iter().all(|n| n > asked * 99 / 100), "{answered:?} of {asked}");
+}
+
+/// Integers of fixed width keep their promise up to the last bit: components, lifts and weights as large as they may be, all signs.
+#[test]
+fn fixed_widths_suffice() {
+    let mut answered = [0; 3];
+    for number in 0..cases() {
+        let mut d = Draws::of(0x60, number);
+        let small = number % 2 == 0;
+        // Integers of 24 bits about 0; or about -1 (or 1), so that differences have 62 bits in two pieces, the last one set or not.
+        let side = Point3::new(d.one_of([-1.0, 1.0]), d.one_of([-1.0, 1.0]), d.one_of([-1.0, 1.0]));
+        let base = if small { Point3::ZERO } else { -side };
+        let greatest = if small { ((1 << 24) - 1) as f64 } else { 1.0f64.next_down() };
+        let others =
+            if small { [1.0, greatest - 1.0, -greatest] } else { [0.5f64.powi(61), greatest.next_down(), -1.0] };
+        let coordinate = |d: &mut Draws| match d.below(6) {
+            0 => 0.0,
+            1..=3 => d.one_of(others),
+            _ => greatest,
+        };
+        let place = |d: &mut Draws| Point3::new(coordinate(d), coordinate(d), coordinate(d)) * side;
+        let weight = |d: &mut Draws| d.one_of([0.0, 1.0, -1.0]) * if small { ((1u64 << 48) - 1) as f64 } else { 15.0 };
+        let p = [(); 4].map(|()| WeightedPoint { at: place(&mut d), weight: weight(&mut d) });
+        let q = WeightedPoint { at: base, weight: 0.0 };
+        let t = bare(p);
+        let exact = poly3::power_side::<Dyadic>(poly3::unweighted(t), WeightedPoint::unweighted(q.at)).sign();
+        for (k, (fixed, exact)) in [
+            (fixed3::orient3d(q.at, t[0], t[1], t[2]), poly3::orient3d::<Dyadic>(q.at, t[0], t[1], t[2]).sign()),
+            (fixed3::in_sphere(t, q.at), exact),
+            (fixed3::power_side(p, q), poly3::power_side::<Dyadic>(p, q).sign()),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            if let Some(fixed) = fixed {
+                answered[k] += 1;
+                assert_eq!(fixed, exact, "{p:?}");
+            }
+        }
+    }
+    assert!(answered.into_iter().all(|n| n > cases() / 2), "{answered:?}");
+}
+
+/// in_conflict3 by its definition: the sign of the lifted determinant with infinitesimals in it.
+fn in_conflict_by_definition(t: WeightedCorners, q: WeightedPoint) -> bool {
+    let points = [t[0], t[1], t[2], t[3], q];
+    let rows: Vec<Vec<Infinitesimal>> = points
+        .iter()
+        .map(|p| {
+            let above = points.iter().filter(|o| o.at.to_array() > p.at.to_array()).count();
+            let place = p.at.to_array().map(|x| Rational::from_f64(x).unwrap());
+            let mut lift = vec![Rational::new(); above + 2];
+            lift[0] =
+                place.iter().map(|x| x.clone().square()).sum::<Rational>() - Rational::from_f64(p.weight).unwrap();
+            lift[above + 1] = Rational::from(1);
+            let [x, y, z] = place.map(|x| vec![x]);
+            vec![x, y, z, lift, vec![Rational::from(1)]]
+        })
+        .collect();
+    determinant(&rows).into_iter().find(|c| *c != 0).is_some_and(|c| c < 0)
+}
+
+#[test]
+fn conflicts_are_those_of_the_perturbed_lift() {
+    let mut ties = 0;
+    for family in FAMILIES {
+        for number in 0..cases() / 8 {
+            let case = Case::new(family, number);
+            let [p, q, r, s, x, ..] = case.p;
+            let t = [p, q, r, s];
+            if case.proper && !t.contains(&x) {
+                ties += u32::from(FastKernel::power_side(t, x) == Sign::Zero);
+                assert_eq!(
+                    FastKernel::in_conflict3(t, x),
+                    in_conflict_by_definition(t, x),
+                    "{family:?} {number}: {t:?} {x:?}"
+                );
+            }
+        }
+    }
+    println!("{ties} ties");
+    assert!(ties > 50, "only {ties} ties met");
 }
 
 /// The comparison can fail: the control's constructions differ in every family that has rounded results.
