@@ -389,6 +389,44 @@ fn filters_answer() {
     assert!(answered.into_iter().all(|n| n > asked * 99 / 100), "{answered:?} of {asked}");
 }
 
+/// What an estimate is certain of is so; where it calls a value on a grid exact, it is.
+#[test]
+fn estimates_are_certain_within_their_bounds() {
+    let certain = |value: f64, bound: f64| match bound {
+        0.0 if value == 0.0 => Some(Sign::Zero),
+        _ if value.abs() > bound => Some(if value > 0.0 { Sign::Positive } else { Sign::Negative }),
+        _ => None,
+    };
+    let (mut asked, mut answered, mut ties) = (0, [0; 2], 0);
+    for family in FAMILIES {
+        for number in 0..cases() / 4 {
+            let case = Case::new(family, number);
+            let [p, q, r, s, x, ..] = case.p;
+            let t = [p, q, r, s];
+            // The unit of the small grid is 1/8, and the weights on it are multiples of 1/64.
+            let exact_below = if family == Family::SmallGrid { 16384.0 } else { 0.0 };
+            let (value, bound) = FastKernel::power_side_estimate(t, x, exact_below);
+            asked += 1;
+            if let Some(sign) = certain(value, bound).filter(|_| case.proper) {
+                answered[0] += 1;
+                ties += u32::from(sign == Sign::Zero);
+                assert_eq!(sign, ExactKernel::power_side(t, x), "{family:?} {number}: {t:?} {x:?}");
+            }
+            let (values, bound) = FastKernel::orient3d_estimates(bare(t), x.at);
+            for (k, value) in values.into_iter().enumerate() {
+                let mut replaced = bare(t);
+                replaced[k] = x.at;
+                let [a, b, c, d] = replaced;
+                if let Some(sign) = certain(value, bound).filter(|_| bound > 0.0) {
+                    answered[1] += 1;
+                    assert_eq!(sign, ExactKernel::orient3d(a, b, c, d), "{family:?} {number}: {t:?} {x:?}");
+                }
+            }
+        }
+    }
+    assert!(answered[0] > asked / 4 && answered[1] > asked && ties > 5, "{answered:?} of {asked}, {ties} ties");
+}
+
 /// Integers of fixed width keep their promise up to the last bit: components, lifts and weights as large as they may be, all signs.
 #[test]
 fn fixed_widths_suffice() {
