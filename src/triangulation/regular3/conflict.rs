@@ -83,7 +83,9 @@ impl<K: Kernel3> Regular3<K> {
             let inside = value > bound;
             count += usize::from(inside);
             self.marks[c as usize] |= u8::from(inside);
-            if !(inside || value < -bound) {
+            // One branch, hardly ever taken; taken for NaN.
+            let is_certain = value.abs() > bound;
+            if !is_certain {
                 undecided.push((c, bound == 0.0));
             }
         }

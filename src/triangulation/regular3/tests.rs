@@ -280,6 +280,22 @@ fn the_order_of_insertion_does_not_show() {
     }
 }
 
+/// One algorithm, two kernels, one answer.
+#[cfg(feature = "exact")]
+#[test]
+fn kernels_build_the_same_triangulation() {
+    for kind in 0..FAMILIES {
+        for weights in 0..3 {
+            let mut draw = Draw(u64::from(kind * 10 + weights) + 7);
+            let points = family(kind, 50, &mut draw);
+            let points = weighted(points, weights, &mut draw);
+            let fast = T::build(&points, 1);
+            let exact = Regular3::<crate::arith::ExactKernel>::build(&points, 1);
+            assert_eq!(fast.to_triangulation(), exact.to_triangulation(), "family {kind}, weights {weights}");
+        }
+    }
+}
+
 /// A center with more neighbors than the table of the star has rows.
 #[test]
 fn a_vertex_may_have_any_number_of_neighbors() {
