@@ -12,9 +12,7 @@ use crate::model::{Point2, Point3, WeightedPoint};
 impl<K: Kernel3> Regular3<K> {
     /// The triangulation of the points; ids are their positions. Any number of threads gives the same one.
     pub fn build(points: &[WeightedPoint], threads: usize) -> Self {
-        // One thread does it all as yet.
-        let _ = threads;
-        Self::build_alone(points)
+        Self::build_together(points, threads).unwrap_or_else(|| Self::build_alone(points))
     }
 
     /// The order in which `build` inserts the points: affinely independent ones first, as many as there are up to four, then samples of
@@ -29,7 +27,7 @@ impl<K: Kernel3> Regular3<K> {
         order
     }
 
-    fn build_alone(points: &[WeightedPoint]) -> Self {
+    pub(super) fn build_alone(points: &[WeightedPoint]) -> Self {
         let order = Self::insertion_order(points);
         let mut t = Self::with_capacity(points.len());
         t.places.resize(points.len(), NONE);
@@ -74,7 +72,7 @@ impl<K: Kernel3> Regular3<K> {
     }
 
     /// Sets all hints and lets the hidden points lodge.
-    fn settle(&mut self) {
+    pub(super) fn settle(&mut self) {
         for (hint, &status) in self.hints.iter_mut().zip(&self.status) {
             if status == Status::Vertex {
                 *hint = NONE;

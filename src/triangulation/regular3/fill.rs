@@ -25,9 +25,9 @@ use crate::model::{Sign, WeightedPoint};
 const WRAPPED: usize = 48;
 
 /// A facet by its vertices in ascending order.
-type Key = [u32; 3];
+pub(super) type Key = [u32; 3];
 
-fn key(mut v: [u32; 3]) -> Key {
+pub(super) fn key(mut v: [u32; 3]) -> Key {
     v.sort_unstable();
     v
 }
@@ -125,7 +125,7 @@ impl<K: Kernel3> Regular3<K> {
 }
 
 /// The cells of the subset's triangulation within the boundary, by the places that its ids stand for.
-fn cells_within<K: Kernel3>(subset: &Regular3<K>, places: &[u32], rim: &[Rim]) -> Vec<[u32; 4]> {
+pub(super) fn cells_within<K: Kernel3>(subset: &Regular3<K>, places: &[u32], rim: &[Rim]) -> Vec<[u32; 4]> {
     let place = |v: u32| if v == INF { INF } else { places[subset.ids[v as usize] as usize] };
     let by_places = |cell: &Cell| cell.v.map(place);
     let facet = |v: [u32; 4], i: usize| FACET[i].map(|k| v[k]);

@@ -44,6 +44,7 @@ mod star;
 mod store;
 #[cfg(test)]
 mod tests;
+mod threads;
 mod validate;
 
 pub use store::{CellId, Change, INFINITE, Regular3, apex, is_apex};
