@@ -36,7 +36,7 @@ pub mod space;
 mod tests;
 mod tree;
 
-pub use report::{Claim, ClaimReport, LISTED_WITNESSES, Report, Verdict, Witness};
+pub use report::{Claim, ClaimReport, LISTED_WITNESSES, Located, Named, Report, Verdict, Witness};
 
 use crate::model::{Lines, Point2, Pslg, VertexId};
 use complex::Complex;

@@ -29,7 +29,7 @@ pub enum Command {
     Check(CheckArgs),
     /// List every finding in an input at once
     Doctor(DoctorArgs),
-    /// Triangulate points, with segments if there are any, and add none
+    /// Triangulate points of the plane, with segments if there are any, or of space, with weights; add none
     Triangulate(TriangulateArgs),
     /// Show where two traces first differ
     Diff(DiffArgs),
@@ -202,6 +202,11 @@ pub struct CheckArgs {
     /// Least angle claimed, in degrees; without it, quality is only told
     #[arg(long, value_name = "DEG")]
     pub min_angle: Option<f64>,
+    /// Of tetrahedra: the circumradius claimed to be below this many times the shortest edge; without it, quality is only told
+    #[arg(long, value_name = "RHO")]
+    pub radius_edge: Option<f64>,
+    #[command(flatten)]
+    pub column: ColumnArgs,
     /// One JSON object on stdout
     #[arg(long)]
     pub json: bool,
@@ -215,6 +220,8 @@ pub struct DoctorArgs {
     /// As for `mesh --convex`
     #[arg(long)]
     pub convex: bool,
+    #[command(flatten)]
+    pub column: ColumnArgs,
     /// One JSON object on stdout
     #[arg(long)]
     pub json: bool,
@@ -223,15 +230,31 @@ pub struct DoctorArgs {
 /// Arguments of `triangulate`.
 #[derive(Args, Debug)]
 pub struct TriangulateArgs {
-    /// Points, perhaps with segments
+    /// Points of the plane, perhaps with segments, or of space
     pub points: PathBuf,
-    /// Weighted points (not in the plane yet)
+    #[command(flatten)]
+    pub column: ColumnArgs,
+    /// Threads, in space; any number gives the same triangulation. Default: all cores
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroU16>,
+    /// In space: the trace tells every insertion, not the finished triangulation alone
     #[arg(long)]
-    pub weights: bool,
+    pub steps: bool,
     #[command(flatten)]
     pub run: RunArgs,
     #[command(flatten)]
     pub out: OutArgs,
+}
+
+/// Where the weights of points of space stand.
+#[derive(Args, Debug)]
+pub struct ColumnArgs {
+    /// The column of weights (squared radii), by name or number (from 1): points of space only
+    #[arg(long, value_name = "COLUMN", conflicts_with = "radii")]
+    pub weights: Option<String>,
+    /// The column of radii, by name or number (from 1): points of space only
+    #[arg(long, value_name = "COLUMN")]
+    pub radii: Option<String>,
 }
 
 /// Arguments of `diff`.
@@ -282,6 +305,8 @@ pub struct ConvertArgs {
     pub from: PathBuf,
     /// Where to; the format is that of its extension
     pub to: PathBuf,
+    #[command(flatten)]
+    pub column: ColumnArgs,
 }
 
 const DISK: &[&str] = &["center", "extreme", "random", "offcenter", "clamped-offcenter"];

@@ -1,27 +1,84 @@
 //! `check`: the audit of a mesh made by anyone.
 
 use super::args::CheckArgs;
-use super::files::read_mesh;
+use super::files::read_any_mesh;
 use super::input::load;
-use super::{Answer, Failure, Status, data};
+use super::{Answer, Failure, Status, data, talk};
 use crate::arith::angle::rho2_from_min_angle;
-use crate::audit::{Claim, Options, Subject, audit};
+use crate::audit::{Claim, Named, Options, Subject, audit, space};
+use crate::io::{AnyMesh, ForeignMesh, ForeignMesh3};
 use serde_json::json;
+use std::time::Instant;
 
 /// What is checked unless claims are named. A refined mesh is Delaunay only as far as its constraints allow, and a mesh of another program may
 /// break ties differently; `delaunay` and `canonical` are for those who claim more.
 const EVERYDAY: [Claim; 6] =
     [Claim::Valid, Claim::Orientation, Claim::Constrained, Claim::Conforming, Claim::Quality, Claim::Topology];
 
+/// The same in space; of points with weights, orthospheres take the place of circumspheres.
+const EVERYDAY_IN_SPACE: [space::Claim; 5] = {
+    use space::Claim::*;
+    [Valid, Orientation, Delaunay, Quality, Topology]
+};
+
 /// Audits a mesh. Exit code 1 if a claim is violated.
 pub fn run(args: &CheckArgs) -> Answer {
-    let claims = claims(&args.claims)?;
+    match read_any_mesh(&args.mesh, args.column.column().as_ref())? {
+        AnyMesh::Plane(mesh) => plane(args, &mesh),
+        AnyMesh::Space(mesh) => in_space(args, &mesh),
+    }
+}
+
+/// Refuses options that are for meshes of the other dimension.
+fn not_for(args: &CheckArgs, what: &str, options: &[(&str, bool)]) -> Result<(), Failure> {
+    match options.iter().find(|o| o.1) {
+        Some((name, _)) => Err(Failure::at(&args.mesh, format_args!("{name} is not for meshes of {what}"))),
+        None => Ok(()),
+    }
+}
+
+fn in_space(args: &CheckArgs, mesh: &ForeignMesh3) -> Answer {
+    not_for(args, "space", &[("--input", args.input.is_some()), ("--min-angle", args.min_angle.is_some())])?;
+    let mut everyday = EVERYDAY_IN_SPACE;
+    if mesh.weights.iter().any(|&w| w != 0.0) {
+        everyday[2] = space::Claim::Regular;
+    }
+    let claims = claims(&args.claims, &everyday, &space::Claim::ALL)?;
+    if args.radius_edge.is_some_and(|rho| !(rho > 0.0 && rho.is_finite())) {
+        return Err(Failure::new("--radius-edge: must be a positive number"));
+    }
+    let subject = space::Subject {
+        points: &mesh.points,
+        weights: &mesh.weights,
+        cells: &mesh.tetrahedra,
+        point_lines: &mesh.lines.points,
+        cell_lines: &mesh.lines.tetrahedra,
+    };
+    let begun = Instant::now();
+    let report = space::audit(&subject, &space::Options { claims: &claims, radius_edge: args.radius_edge });
+    let (passed, seconds) = (report.passed(), begun.elapsed().as_secs_f64());
+    if args.json {
+        data(json!({
+            "verdict": if passed { "holds" } else { "violated" },
+            "vertices": mesh.points.len(), "cells": mesh.tetrahedra.len(),
+            "claims": report.claims, "seconds": seconds,
+        }))?;
+    } else {
+        data(report.to_string().trim_end())?;
+        talk(format_args!("time      {seconds:.3} s, reading apart"));
+    }
+    Ok(if passed { Status::Well } else { Status::No })
+}
+
+fn plane(args: &CheckArgs, mesh: &ForeignMesh) -> Answer {
+    let column = args.column.column().is_some();
+    not_for(args, "the plane", &[("--weights or --radii", column), ("--radius-edge", args.radius_edge.is_some())])?;
+    let claims = claims(&args.claims, &EVERYDAY, &Claim::ALL)?;
     if !(args.within >= 0.0 && args.within.is_finite()) {
         return Err(Failure::new(format_args!("--within {}: must be a number of ulps, 0 or more", args.within)));
     }
     let rho2 = args.min_angle.map(rho2_from_min_angle).transpose();
     let rho2 = rho2.map_err(|e| Failure::new(format_args!("--min-angle: {e}")))?;
-    let mesh = read_mesh(&args.mesh)?;
     let loaded = args.input.as_ref().map(|path| load(path, None)).transpose()?;
     if let (Some(loaded), Some(path)) = (&loaded, &args.input)
         && loaded.refused()
@@ -55,14 +112,15 @@ pub fn run(args: &CheckArgs) -> Answer {
     Ok(if passed { Status::Well } else { Status::No })
 }
 
-fn claims(names: &[String]) -> Result<Vec<Claim>, Failure> {
+/// The claims of these names among all; the everyday ones if none is named.
+fn claims<C: Named + PartialEq>(names: &[String], everyday: &[C], all: &[C]) -> Result<Vec<C>, Failure> {
     if names.is_empty() {
-        return Ok(EVERYDAY.to_vec());
+        return Ok(everyday.to_vec());
     }
     let mut claims = Vec::new();
     for name in names {
-        let claim = Claim::from_name(name.trim()).ok_or_else(|| {
-            let known: Vec<&str> = Claim::ALL.iter().map(|c| c.name()).collect();
+        let claim = all.iter().copied().find(|c| c.name() == name.trim()).ok_or_else(|| {
+            let known: Vec<&str> = all.iter().map(|c| c.name()).collect();
             Failure::new(format_args!("--claims {name}: the claims are {}", known.join(", ")))
         })?;
         if !claims.contains(&claim) {

@@ -1,7 +1,7 @@
 //! Files: read whole; written whole or not at all, several together.
 
 use super::Failure;
-use crate::io::{self, ForeignMesh, Format};
+use crate::io::{self, AnyMesh, Column, Format};
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -26,12 +26,12 @@ pub fn companion(path: &Path) -> impl FnMut(Format) -> Option<Vec<u8>> {
     move |format| fs::read(path.with_extension(format.extension())).ok()
 }
 
-/// Reads a mesh by its extension.
-pub fn read_mesh(path: &Path) -> Result<ForeignMesh, Failure> {
-    let known = || Failure::at(path, "meshes are read from .vtu, .msh, .off, .node, .ele");
-    let format = Format::of(path).filter(|f| f.reads_mesh()).ok_or_else(known)?;
+/// Reads a mesh of the plane or of space by its extension and content. `column`: where the weights of points of space stand.
+pub fn read_any_mesh(path: &Path, column: Option<&Column>) -> Result<AnyMesh, Failure> {
+    let known = || Failure::at(path, "meshes are read from .vtu, .vtk, .msh, .mesh, .off, .node, .ele");
+    let format = Format::of(path).filter(|f| f.reads_mesh() || f.reads_mesh3()).ok_or_else(known)?;
     let bytes = read(path)?;
-    let mesh = io::read_mesh(format, &bytes, companion(path)).ok_or_else(known)?;
+    let mesh = io::read_any_mesh(format, &bytes, column, companion(path)).ok_or_else(known)?;
     mesh.map_err(|e| Failure::at(path, e))
 }
 

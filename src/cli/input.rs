@@ -81,13 +81,7 @@ impl Loaded {
 
     /// Tells that the input is refused, and why: all errors on stderr, all findings on stdout if a program listens.
     pub fn tell_refusal(&self, path: &Path, json: bool) -> Result<(), Failure> {
-        for entry in self.entries.iter().filter(|e| e.severity == Severity::Error) {
-            talk(format_args!("{}: {}", path.display(), entry.text));
-        }
-        if json {
-            data(json!({"outcome": "refused", "input": path.display().to_string(), "findings": self.json()}))?;
-        }
-        Ok(())
+        tell_refusal(&self.entries, path, json)
     }
 
     /// All findings for programs.
@@ -101,6 +95,18 @@ impl Loaded {
     }
 }
 
+/// As `Loaded::tell_refusal`.
+pub fn tell_refusal(entries: &[Entry], path: &Path, json: bool) -> Result<(), Failure> {
+    for entry in entries.iter().filter(|e| e.severity == Severity::Error) {
+        talk(format_args!("{}: {}", path.display(), entry.text));
+    }
+    if json {
+        let findings: Value = entries.iter().map(|e| e.json.clone()).collect();
+        data(json!({"outcome": "refused", "input": path.display().to_string(), "findings": findings}))?;
+    }
+    Ok(())
+}
+
 /// A finding as an entry.
 pub fn finding(f: &Finding) -> Entry {
     // Plain data has a JSON form.
@@ -108,7 +114,8 @@ pub fn finding(f: &Finding) -> Entry {
     Entry { severity: f.severity(), text: f.to_string(), json }
 }
 
-fn syntax(e: &ReadError) -> Entry {
+/// A fault of a file as an entry.
+pub fn syntax(e: &ReadError) -> Entry {
     let line = (e.line > 0).then_some(e.line);
     let message = if e.element.is_empty() { e.problem.clone() } else { format!("{}: {}", e.element, e.problem) };
     let column = (e.column > 0).then_some(e.column);
@@ -119,7 +126,8 @@ fn syntax(e: &ReadError) -> Entry {
     Entry { severity: Severity::Error, text: format!("error: {e}"), json }
 }
 
-fn note(n: &Note) -> Entry {
+/// A reader's note as an entry.
+pub fn note(n: &Note) -> Entry {
     let (severity, name) = match n.kind {
         NoteKind::Repair => (Severity::Repair, "repair"),
         NoteKind::Note => (Severity::Note, "note"),

@@ -38,8 +38,17 @@ pub fn run(args: &MeshArgs) -> Answer {
 
 /// Triangulates an input.
 pub fn triangulate(args: &TriangulateArgs) -> Answer {
-    if args.weights {
-        return Err(Failure::new("--weights: weighted points are not triangulated in the plane in this version"));
+    if super::space::is_spatial(&args.points)? {
+        return super::space::triangulate(args);
+    }
+    let column = args.column.column().is_some();
+    for (name, given) in [("--weights or --radii", column), ("--steps", args.steps)] {
+        if given {
+            return Err(Failure::at(
+                &args.points,
+                format_args!("{name} is for points of space; these are of the plane"),
+            ));
+        }
     }
     perform(&args.points, Some(Fill::Convex), &Task::Triangulate, &args.run, &args.out)
 }

@@ -16,6 +16,7 @@ mod parameters;
 mod replay;
 mod report;
 mod reproduce;
+mod space;
 mod verify;
 mod watch;
 

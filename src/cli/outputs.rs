@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::files::Staged;
-use crate::io::{Format, poly_wants_node, write_mesh};
+use crate::io::{ForeignMesh3, Format, poly_wants_node, write_mesh, write_mesh3};
 use crate::model::{Mesh2, Pslg};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -58,6 +58,45 @@ pub fn stage(
     let places = places(paths)?;
     for (place, format) in &places {
         let bytes = write_mesh(mesh, *format, domain).ok_or_else(|| Failure::at(place, "no format of meshes"))?;
+        staged.write(place, &bytes)?;
+    }
+    Ok(places.into_iter().map(|(place, _)| place).collect())
+}
+
+/// Every file of a mesh of space to be written, once.
+fn places3(paths: &[PathBuf], mesh: &ForeignMesh3) -> Result<Vec<(PathBuf, Format)>, Failure> {
+    let mut places = Vec::new();
+    for path in paths {
+        let formats = Format::of(path).map(|f| f.files_of_mesh3(mesh)).unwrap_or_default();
+        if formats.is_empty() {
+            return Err(Failure::at(path, "meshes of space are written to .vtu, .vtk, .msh, .mesh, .node, .ele"));
+        }
+        for format in formats {
+            let own = Format::of(path) == Some(format);
+            places.push((if own { path.clone() } else { path.with_extension(format.extension()) }, format));
+        }
+    }
+    places.sort();
+    places.dedup();
+    Ok(places)
+}
+
+/// Refuses names that `stage3` would refuse, and to write over the points that are read.
+pub fn spare_input3(paths: &[PathBuf], input: &Path) -> Result<(), Failure> {
+    let own = input.canonicalize().ok();
+    for (place, _) in places3(paths, &ForeignMesh3::default())? {
+        if own.is_some() && place.canonicalize().ok() == own {
+            return Err(Failure::at(&place, "would be written over, and is the input; give another name"));
+        }
+    }
+    Ok(())
+}
+
+/// Writes a mesh of space under each name, and says which files that are.
+pub fn stage3(paths: &[PathBuf], mesh: &ForeignMesh3, staged: &mut Staged) -> Result<Vec<PathBuf>, Failure> {
+    let places = places3(paths, mesh)?;
+    for (place, format) in &places {
+        let bytes = write_mesh3(mesh, *format).ok_or_else(|| Failure::at(place, "no format of meshes of space"))?;
         staged.write(place, &bytes)?;
     }
     Ok(places.into_iter().map(|(place, _)| place).collect())

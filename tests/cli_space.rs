@@ -1,0 +1,240 @@
+//! The commands on points and meshes of space: exit codes, JSON, files; every mutation of a good mesh is refused with its place.
+
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const ATOMS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/atoms.csv");
+
+/// A folder of a test's own, empty.
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+#[track_caller]
+fn expect(folder: &Path, arguments: &str, expected: i32) -> Output {
+    let list = arguments.split_whitespace().map(|a| if a == "ATOMS" { ATOMS } else { a });
+    let output = Command::new(env!("CARGO_BIN_EXE_orthoball")).args(list).current_dir(folder).output().unwrap();
+    let said = String::from_utf8(output.stderr.clone()).unwrap();
+    assert_eq!(output.status.code(), Some(expected), "{arguments}\n{}{said}", String::from_utf8_lossy(&output.stdout));
+    assert!(!said.contains("panicked"), "{said}");
+    output
+}
+
+#[track_caller]
+fn json(folder: &Path, arguments: &str, expected: i32) -> Value {
+    serde_json::from_slice(&expect(folder, arguments, expected).stdout).unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// Random points of few digits, one a line.
+fn xyz(count: u32) -> String {
+    let mut state = 3u64;
+    let mut draw = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 44) as f64 / 1024.0
+    };
+    (0..count).map(|_| format!("{} {} {}\n", draw(), draw(), draw())).collect()
+}
+
+const SPHERES: &str = "valid,orientation,delaunay,canonical,hull";
+
+#[test]
+fn the_everyday_run_in_space() {
+    let f = folder("space_everyday");
+    let done = json(&f, "triangulate ATOMS --radii r -o a.vtu -o a.ele --trace a.obt --json", 0);
+    assert_eq!(names(&f), ["a.ele", "a.node", "a.obt", "a.vtu"]);
+    let counts = &done["counts"];
+    let count = |name: &str| counts[name].as_u64().unwrap();
+    assert_eq!(count("points"), count("vertices") + count("hidden") + count("duplicates"));
+    assert!(count("hidden") > 0 && count("cells") > count("vertices"));
+    assert_eq!((&done["outcome"], &done["dimension"]), (&"complete".into(), &3.into()));
+    assert!(done["quality"]["min_dihedral"].as_f64().unwrap() > 0.0);
+    assert_eq!(done["files"].as_array().unwrap().len(), 3);
+    for key in ["level", "unmet", "digests", "seconds", "findings"] {
+        assert!(done.get(key).is_some(), "{key}");
+    }
+    assert_eq!(json(&f, "verify a.obt --json", 0)["verdict"], "accepted");
+    // Every format carries weights, cells and order.
+    for mesh in ["a.vtu", "a.ele --weights 5", "a.ele --weights 5 --claims regular,canonical,hull,topology"] {
+        let said = json(&f, &format!("check {mesh} --json"), 0);
+        assert_eq!((&said["verdict"], &said["cells"]), (&"holds".into(), &counts["cells"]), "{mesh}: {said}");
+    }
+    // Without the weights it is no Delaunay triangulation.
+    expect(&f, "check a.ele", 1);
+}
+
+#[test]
+fn threads_kernels_and_steps_agree() {
+    let f = folder("space_agree");
+    fs::write(f.join("p.xyz"), xyz(300)).unwrap();
+    let digest = |arguments: &str| {
+        let done = json(&f, &format!("triangulate p.xyz --json {arguments}"), 0);
+        if arguments.contains("--mirror") {
+            assert_eq!(done["mirror"]["verdict"], "identical");
+        }
+        done["digests"]["mesh"].as_str().unwrap().to_string()
+    };
+    let first = digest("--threads 1");
+    for arguments in
+        ["--threads 2", "--steps", "--kernel exact", "--mirror", "--mirror --steps", "--steps --trace s.jsonl"]
+    {
+        assert_eq!(digest(arguments), first, "{arguments}");
+    }
+    expect(&f, "verify s.jsonl --strict", 0);
+    expect(&f, "convert s.jsonl s.obt", 0);
+    expect(&f, "verify s.obt", 0);
+}
+
+#[test]
+fn lower_dimensions_are_answers() {
+    let f = folder("space_flat");
+    for (name, points, dimension, cells) in [
+        ("plane.xyz", "0 0 1\n1 0 1\n0 1 1\n1 1 1\n", 2, 2),
+        ("line.xyz", "0 0 0\n2 2 2\n1 1 1\n", 1, 2),
+        ("point.xyz", "5 5 5\n5 5 5\n", 0, 1),
+    ] {
+        fs::write(f.join(name), points).unwrap();
+        let done = json(&f, &format!("triangulate {name} -o {name}.vtu --json"), 0);
+        assert_eq!((&done["dimension"], &done["counts"]["cells"]), (&dimension.into(), &cells.into()), "{name}");
+        let said = json(&f, &format!("doctor {name} --json"), 0);
+        assert!(said["findings"].as_array().unwrap().iter().any(|e| e["kind"] == "flat"), "{said}");
+    }
+}
+
+#[test]
+fn doctor_of_points() {
+    let f = folder("space_doctor");
+    fs::write(f.join("p.csv"), "x,y,z,w\n0,0,0,0\n4,0,0,0\n0,4,0,0\n0,0,4,0\n1,1,1,-10\n4,0,0,0\n").unwrap();
+    let said = json(&f, "doctor p.csv --weights w --json", 0);
+    let found: Vec<(&str, u64)> = said["findings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|e| (e["kind"].as_str().unwrap(), e["line"].as_u64().unwrap_or(0)))
+        .collect();
+    assert_eq!(found, [("duplicate", 7), ("hidden", 6)]);
+    assert_eq!(said["findings"][0]["elements"], serde_json::json!([5, 1]));
+    // Errors of syntax and of range, with their lines.
+    for (name, text, line) in [("nan.xyz", "0 0 0\n0 nan 0\n", 2), ("huge.xyz", "0 0 0\n1 0 0\n0 1e300 0\n", 3)] {
+        fs::write(f.join(name), text).unwrap();
+        let said = json(&f, &format!("doctor {name} --json"), 1);
+        assert_eq!(said["findings"][0]["severity"], "error");
+        let finding = said["findings"][0].to_string();
+        assert!(finding.contains(&line.to_string()), "{finding}");
+        let refused = json(&f, &format!("triangulate {name} -o x.vtu --trace x.obt --json"), 2);
+        assert_eq!(refused["outcome"], "refused");
+    }
+    assert_eq!(names(&f), ["huge.xyz", "nan.xyz", "p.csv"]);
+}
+
+#[test]
+fn stops_leave_nothing() {
+    let f = folder("space_stops");
+    fs::write(f.join("p.xyz"), xyz(20_000)).unwrap();
+    for limit in ["--max-steps 100", "--max-seconds 0 --kernel exact"] {
+        let said = json(&f, &format!("triangulate p.xyz -o x.vtu --trace x.obt --json {limit}"), 3);
+        assert_eq!(said["outcome"], "stopped", "{limit}");
+        assert_eq!(names(&f), ["p.xyz"], "{limit}");
+    }
+}
+
+#[test]
+fn wrong_usage_in_space() {
+    let f = folder("space_usage");
+    fs::write(f.join("p.xyz"), xyz(20)).unwrap();
+    fs::write(f.join("q.node"), "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n").unwrap();
+    for arguments in [
+        "triangulate p.xyz -o p.xyz",
+        "triangulate p.xyz -o p.svg",
+        "triangulate p.xyz --weights 4 --radii 4",
+        "triangulate p.xyz --threads 0",
+        "triangulate q.node --weights 4",
+        "triangulate q.node --steps",
+        "triangulate none.xyz",
+        "convert p.xyz p.vtu",
+        "check p.xyz",
+    ] {
+        expect(&f, arguments, 2);
+    }
+    assert_eq!(names(&f), ["p.xyz", "q.node"]);
+}
+
+/// A triangulation of random points as files of TetGen: the lines of the cells, the first of them a header.
+fn good_mesh(f: &Path) -> Vec<String> {
+    fs::write(f.join("p.xyz"), xyz(80)).unwrap();
+    expect(f, "triangulate p.xyz -o good.ele", 0);
+    fs::read_to_string(f.join("good.ele")).unwrap().lines().filter(|l| !l.starts_with('#')).map(Into::into).collect()
+}
+
+#[test]
+fn mutations_of_a_mesh_are_refused() {
+    let f = folder("space_mutations");
+    let lines = good_mesh(&f);
+    let node = fs::read_to_string(f.join("good.node")).unwrap();
+    let check = |name: &str, cells: &[String], expected: i32| {
+        let text = format!("{} 4 0\n{}\n", cells.len(), cells.join("\n"));
+        fs::write(f.join(format!("{name}.ele")), text).unwrap();
+        fs::write(f.join(format!("{name}.node")), &node).unwrap();
+        json(&f, &format!("check {name}.ele --claims {SPHERES} --json"), expected)
+    };
+    let violated = |said: &Value, claim: &str| {
+        let claims = said["claims"].as_array().unwrap();
+        let c = claims.iter().find(|c| c["claim"] == claim).unwrap();
+        assert_eq!(c["verdict"], "violated", "{c}");
+        let w = &c["witnesses"][0];
+        assert!(!w["message"].as_str().unwrap().is_empty() && !w["lines"].as_array().unwrap().is_empty(), "{w}");
+        w.clone()
+    };
+    let cells = &lines[1..];
+    assert_eq!(check("same", cells, 0)["verdict"], "holds");
+    let fields = |i: usize| cells[i].split_whitespace().map(String::from).collect::<Vec<_>>();
+    let with = |i: usize, fields: &[String]| {
+        let mut all = cells.to_vec();
+        all[i] = fields.join(" ");
+        all
+    };
+    let mut inverted = fields(7);
+    inverted.swap(1, 2);
+    assert_eq!(violated(&check("inverted", &with(7, &inverted), 1), "orientation")["cells"], serde_json::json!([7]));
+    let mut doubled = cells.to_vec();
+    let mut copy = fields(9);
+    copy[0] = (cells.len() + usize::from(fields(0)[0] == "1")).to_string();
+    doubled.push(copy.join(" "));
+    let w = violated(&check("doubled", &doubled, 1), "valid");
+    let named = w["cells"].as_array().unwrap();
+    assert!(named.contains(&9.into()) && named.contains(&cells.len().into()), "{w}");
+    let mut missing: Vec<String> = cells.to_vec();
+    missing.pop();
+    violated(&check("missing", &missing, 1), "hull");
+    let mut wrong = fields(5);
+    wrong[1] = fields(cells.len() - 1)[4].clone();
+    let said = check("wrong", &with(5, &wrong), 1);
+    violated(&said, "valid");
+}
+
+#[test]
+fn meshes_and_points_convert() {
+    let f = folder("space_convert");
+    let cells = good_mesh(&f).len() - 1;
+    for name in ["m.vtu", "m.vtk", "m.msh", "m.mesh", "m.node"] {
+        expect(&f, &format!("convert good.ele {name}"), 0);
+        let said = json(&f, &format!("check {name} --json --claims {SPHERES}"), 0);
+        assert_eq!(said["cells"], cells, "{name}");
+    }
+    for name in ["p.csv", "p.npy", "p.ply", "q.node", "p.off"] {
+        expect(&f, &format!("convert p.xyz {name}"), 0);
+        let done = json(&f, &format!("triangulate {name} --json"), 0);
+        assert_eq!(done["counts"]["cells"], cells, "{name}");
+    }
+}
