@@ -300,13 +300,15 @@ fn orient3d_without_filter(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
 
 #[inline(never)]
 fn in_sphere_without_filter(t: Corners3, q: Point3) -> Sign {
-    fixed3::in_sphere(t, q).map(by_fixed_width).unwrap_or_else(|| {
-        let (t, q) = (poly3::unweighted(t), WeightedPoint::unweighted(q));
-        sign_without_filter!(poly3::power_side(t, q))
-    })
+    let (weighted, place) = (poly3::unweighted(t), WeightedPoint::unweighted(q));
+    filter3::power_side_by_terms(weighted, place)
+        .or_else(|| fixed3::in_sphere(t, q).map(by_fixed_width))
+        .unwrap_or_else(|| sign_without_filter!(poly3::power_side(weighted, place)))
 }
 
 #[inline(never)]
 fn power_side_without_filter(t: WeightedCorners, q: WeightedPoint) -> Sign {
-    fixed3::power_side(t, q).map(by_fixed_width).unwrap_or_else(|| sign_without_filter!(poly3::power_side(t, q)))
+    filter3::power_side_by_terms(t, q)
+        .or_else(|| fixed3::power_side(t, q).map(by_fixed_width))
+        .unwrap_or_else(|| sign_without_filter!(poly3::power_side(t, q)))
 }

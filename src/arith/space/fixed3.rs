@@ -187,20 +187,48 @@ fn small_determinant([a, b, c, d]: [[i64; 3]; 4], lifts: [i64; 4]) -> i128 {
 
 /// The sign of the determinant of in_sphere for components below 2^62 and lifts below 2^127.
 #[inline]
-fn determinant_sign([a, b, c, d]: [[i64; 3]; 4], lifts: [i128; 4]) -> Sign {
+fn determinant_sign(v: [[i64; 3]; 4], lifts: [i128; 4]) -> Sign {
+    let [a, b, c, d] = v;
     let (ab, bc, cd) = (minor(a, b), minor(b, c), minor(c, d));
     let (ac, bd, ad) = (minor(a, c), minor(b, d), minor(a, d));
-    let minors = [
-        triple(b[2], cd, -c[2], bd, d[2], bc),
-        triple(c[2], ad, -a[2], cd, -d[2], ac),
-        triple(a[2], bd, -b[2], ad, d[2], ab),
-        triple(b[2], ac, -a[2], bc, -c[2], ab),
+    // Each triple product as its three components of z and their minors.
+    let terms = [
+        [(b[2], cd), (-c[2], bd), (d[2], bc)],
+        [(c[2], ad), (-a[2], cd), (-d[2], ac)],
+        [(a[2], bd), (-b[2], ad), (d[2], ab)],
+        [(b[2], ac), (-a[2], bc), (-c[2], ab)],
     ];
+    if let Some(sign) = leading_sign(terms, lifts) {
+        return sign;
+    }
     let mut sum = Sum::default();
-    for (minor, lift) in minors.into_iter().zip(lifts) {
-        sum.add_product(minor, lift);
+    for ([(i, m), (j, n), (k, o)], lift) in terms.into_iter().zip(lifts) {
+        sum.add_product(triple(i, m, j, n, k, o), lift);
     }
     sum.sign()
+}
+
+/// The sign of the sum of triple products times lifts by the leading bits of minors, triple products and lifts, where they tell it.
+///
+/// Cutting a number off at a bit makes it too small by less than one unit of that bit. With minors cut to multiples of 2^63 a triple product is off by less
+/// than 3 2^62 2^63 < 2 2^126, and cut to a multiple t 2^126 by less than 3 2^126; |t| < 2^63. Lifts are cut to l 2^65, |l| < 2^62. A product is then off by less
+/// than 3 (|l| + 1) + |t| units of 2^191, and all four together by less than 2^67 of them, their sum being below 2^127.
+#[inline]
+fn leading_sign(terms: [[(i64, i128); 3]; 4], lifts: [i128; 4]) -> Option<Sign> {
+    let (mut sum, mut bound) = (0i128, 0i128);
+    for (term, lift) in terms.into_iter().zip(lifts) {
+        let product: i128 = term.into_iter().map(|(z, minor)| wide(z, (minor >> 63) as i64)).sum();
+        let (t, l) = ((product >> 63) as i64, (lift >> 65) as i64);
+        sum += wide(t, l);
+        bound += 3 * (i128::from(l.unsigned_abs()) + 1) + i128::from(t.unsigned_abs());
+    }
+    if sum > bound {
+        Some(Sign::Positive)
+    } else if sum < -bound {
+        Some(Sign::Negative)
+    } else {
+        None
+    }
 }
 
 /// The integer high 2^64 + low.
