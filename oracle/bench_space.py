@@ -105,7 +105,7 @@ class Bench:
         for ending in ["vtu", "mesh", "ele"]:
             mesh = self.work / f"mesh.{ending}"
             outputs = ["-o", mesh] + (["-o", mesh.with_suffix(".node")] if ending == "ele" else [])
-            self.command(f"triangulate to .{ending}", base, ["triangulate", path, *outputs])
+            self.command(f"triangulate to .{ending}", base, ["triangulate", path, "--threads", 1, *outputs])
             self.command(f"check --claims delaunay, .{ending}", base, ["check", mesh, "--claims", "delaunay"])
 
     def trace(self):
@@ -113,7 +113,7 @@ class Bench:
         base, _ = self.medians([self.ours, "build", self.points("mesh_points")])[0]
         for steps in [[], ["--steps"]]:
             name = "insertion trace" if steps else "certificate"
-            self.command(f"triangulate, {name}", base, ["triangulate", path, *steps, "--trace", trace])
+            self.command(f"triangulate, {name}", base, ["triangulate", path, "--threads", 1, *steps, "--trace", trace])
             print(f"  {trace.stat().st_size / (self.n * 3 // 20):.1f} bytes a point", flush=True)
             for options in [[], ["--strict"]]:
                 self.command(f"verify {' '.join(options) or 'plain'}, {name}", base, ["verify", trace, *options])
