@@ -23,8 +23,10 @@ pub(super) struct Complex<'a> {
     pub negative: Vec<u32>,
     /// The slot on the other side of each, or `BORDER`.
     pub across: Vec<u32>,
-    /// Whether a cell has this vertex.
-    pub used: Vec<bool>,
+    /// The corner on the other side of each, or `BORDER`.
+    pub far: Vec<u32>,
+    /// Whether all points are finite.
+    all_finite: bool,
     /// A scaled coordinate of 1 stands for 2 to this power.
     exponent: i32,
     /// A vertex whose coordinates or weight scaling cannot keep.
@@ -32,18 +34,19 @@ pub(super) struct Complex<'a> {
 }
 
 impl<'a> Complex<'a> {
-    /// Builds it, and answers the local part of `valid`.
-    pub fn new(subject: &'a Subject<'a>) -> (Self, ClaimReport) {
+    /// Builds it, and answers the local part of `valid`; without links, only what single cells say.
+    pub fn new(subject: &'a Subject<'a>, linked: bool) -> (Self, ClaimReport) {
         let mut report = ClaimReport::new(Claim::Valid);
         let (sites, exponent, unscalable) = scaled(subject);
         let mut complex = Complex {
             subject,
-            used: vec![false; sites.len()],
+            all_finite: (0..sites.len()).all(|v| is_finite(subject, v as u32)),
             sites,
             cells: Vec::with_capacity(subject.cells.len()),
             in_file: Vec::with_capacity(subject.cells.len()),
             negative: Vec::new(),
             across: Vec::new(),
+            far: Vec::new(),
             exponent,
             unscalable,
         };
@@ -53,11 +56,20 @@ impl<'a> Complex<'a> {
         for i in 0..subject.cells.len() {
             complex.take(i as u32, &mut report);
         }
-        complex.link(&mut report);
+        if linked {
+            complex.link(&mut report);
+        }
         if complex.cells.is_empty() && report.verdict == Verdict::Holds {
             report = ClaimReport::unchecked(Claim::Valid, "there is no cell");
         }
         (complex, report)
+    }
+
+    /// Whether a cell has each vertex.
+    pub fn used(&self) -> Vec<bool> {
+        let mut used = vec![false; self.sites.len()];
+        self.cells.iter().flatten().for_each(|&v| used[v as usize] = true);
+        used
     }
 
     /// What a scaled coordinate of 1 stands for, for display.
@@ -102,7 +114,8 @@ impl<'a> Complex<'a> {
             report.violated(subject, &[], &[i], || format!("cell {i} refers to vertex {v}, which does not exist"));
             return;
         }
-        if let Some(&v) = cell.iter().find(|&&v| !is_finite(subject, v)) {
+        let broken = |v: &&u32| !self.all_finite && !is_finite(subject, **v);
+        if let Some(&v) = cell.iter().find(broken) {
             report.violated(subject, &[v], &[i], || format!("cell {i} has vertex {v}, which is not finite"));
             return;
         }
@@ -121,17 +134,14 @@ impl<'a> Complex<'a> {
                 return;
             }
         }
-        for v in cell {
-            self.used[v as usize] = true;
-        }
         self.cells.push(cell);
         self.in_file.push(i);
     }
 
     /// Links cells across their facets. Both cells at a facet must lie on different sides of it.
     fn link(&mut self, report: &mut ClaimReport) {
-        let Glue { across, clashes } = glue::glue(&self.cells, self.sites.len());
-        self.across = across;
+        let Glue { across, far, clashes } = glue::glue(&self.cells, self.sites.len());
+        (self.across, self.far) = (across, far);
         for slots in clashes {
             let mut cells: Vec<u32> = slots.iter().map(|&s| self.cell_in_file(s)).collect();
             cells.sort_unstable();

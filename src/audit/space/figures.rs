@@ -198,7 +198,7 @@ fn edges(complex: &Complex<'_>) -> usize {
 pub(super) fn topology(complex: &Complex<'_>, border: Option<&Border<'_>>) -> ClaimReport {
     let mut by_vertex = Classes::new(complex.sites.len());
     let mut by_facet = Classes::new(complex.cells.len());
-    let vertices = complex.used.iter().filter(|u| **u).count();
+    let vertices = complex.used().into_iter().filter(|&u| u).count();
     let (mut components, mut strong_components) = (vertices, complex.cells.len());
     let mut shared = 0;
     for (t, cell) in (0u32..).zip(&complex.cells) {

@@ -76,10 +76,11 @@ impl Default for Options<'_> {
 /// Audits a mesh.
 pub fn audit(subject: &Subject<'_>, options: &Options<'_>) -> Report {
     let asked = |claims: &[Claim]| claims.iter().any(|c| options.claims.contains(c));
-    let (complex, mut valid) = Complex::new(subject);
+    // These two ask of single cells.
+    let linked = options.claims.iter().any(|c| !matches!(c, Claim::Orientation | Claim::Quality));
+    let (complex, mut valid) = Complex::new(subject, linked);
     // On a complex with faults the border means nothing.
-    let border = (valid.verdict == Verdict::Holds && !asked_only(options, &[Claim::Orientation, Claim::Quality]))
-        .then(|| Border::examine(&complex, &mut valid));
+    let border = (valid.verdict == Verdict::Holds && linked).then(|| Border::examine(&complex, &mut valid));
     let sound = valid.verdict == Verdict::Holds;
     let valid = valid.conclude("any two cells meet in a common vertex, edge or facet, or not at all");
     let isolated = if asked(&[Claim::Delaunay, Claim::Regular, Claim::Canonical, Claim::Hull]) {
@@ -112,8 +113,4 @@ pub fn audit(subject: &Subject<'_>, options: &Options<'_>) -> Report {
         claims.push(report);
     }
     Report { claims }
-}
-
-fn asked_only(options: &Options<'_>, claims: &[Claim]) -> bool {
-    options.claims.iter().all(|c| claims.contains(c))
 }

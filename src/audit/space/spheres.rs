@@ -75,16 +75,16 @@ impl<'a> Spheres<'a> {
 
     /// Each cell against the far corners of its neighbors, each pair once: conflict is mutual.
     fn across_facets(&self, report: &mut ClaimReport) {
-        let Complex { cells, across, .. } = self.complex;
-        for (i, links) in (0u32..).zip(across.as_chunks::<4>().0) {
-            let later = |&&s: &&u32| s != BORDER && s / 4 > i;
-            if !links.iter().any(|s| later(&s)) {
+        let Complex { cells, far, .. } = self.complex;
+        for (i, (cell, far)) in (0u32..).zip(cells.iter().zip(far.as_chunks::<4>().0)) {
+            // Of two far corners that see each other, the smaller asks.
+            let asks = |k: usize| far[k] != BORDER && cell[k] < far[k];
+            if !(0..4).any(asks) {
                 continue;
             }
-            let t = self.corners(i);
+            let t = cell.map(|v| self.sites[v as usize]);
             let sphere = Sphere::through(&t);
-            for &slot in links.iter().filter(later) {
-                let v = cells[(slot / 4) as usize][(slot % 4) as usize];
+            for v in (0..4).filter(|&k| asks(k)).map(|k| far[k]) {
                 let q = &self.sites[v as usize];
                 let side = sphere.side(q).unwrap_or_else(|| exact_side(&t, q));
                 if side != Sign::Negative && self.conflicts(side, &t, q) {
@@ -96,7 +96,7 @@ impl<'a> Spheres<'a> {
 
     /// The cells at the border against vertices beyond it; of each cell, one vertex is told.
     fn beyond_border(&self, border: &Border<'_>, report: &mut ClaimReport) {
-        let vertices: Vec<u32> = (0u32..).zip(&self.complex.used).filter(|v| *v.1).map(|v| v.0).collect();
+        let vertices: Vec<u32> = (0u32..).zip(self.complex.used()).filter(|v| v.1).map(|v| v.0).collect();
         let place = |i: usize| self.sites[vertices[i] as usize];
         let tree = Tree::new(vertices.len(), |i| [place(i).at; 2]);
         let heaviest = vertices.iter().fold(f64::NEG_INFINITY, |m, &v| m.max(self.sites[v as usize].weight));

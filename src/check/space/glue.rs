@@ -1,7 +1,7 @@
 //! Which cells share a facet: by bucketing facets on their smallest vertex.
 //!
 //! A facet is a slot, 4 t + k: that of cell t across from its corner k. A bucket holds the slots of one smallest vertex, as many as there are triangles
-//! around it, and is sorted by the other two. Cells are positively oriented, so that two of them on different sides of a facet see it turn
+//! around it, and is matched by the other two in a small table, or by sorting if it is large. Cells are positively oriented, so that two of them on different sides of a facet see it turn
 //! in different directions.
 
 /// The slot across from a facet of the border.
@@ -18,6 +18,8 @@ pub const MOST_CELLS: usize = (BORDER / 4) as usize;
 pub struct Glue {
     /// For each slot the one across, or `BORDER`.
     pub across: Vec<u32>,
+    /// For each slot the corner of the cell across that is not in the facet, or `BORDER`.
+    pub far: Vec<u32>,
     /// Facets of three or more cells, or of two on the same side: their slots, which are `BORDER` above.
     pub clashes: Vec<Vec<u32>>,
 }
@@ -32,26 +34,78 @@ pub fn facet(cells: &[[u32; 4]], slot: u32) -> [u32; 3] {
 /// Links positively oriented cells, each with four different corners below `vertices`. At most `MOST_CELLS`.
 pub fn glue(cells: &[[u32; 4]], vertices: usize) -> Glue {
     let (ends, slots) = buckets(cells, vertices);
-    let mut glue = Glue { across: vec![BORDER; 4 * cells.len()], clashes: Vec::new() };
-    let mut bucket: Vec<(u64, u64)> = Vec::new();
+    let mut glue =
+        Glue { across: vec![BORDER; 4 * cells.len()], far: vec![BORDER; 4 * cells.len()], clashes: Vec::new() };
+    let mut table = Table::default();
     let mut from = 0;
     for end in ends {
-        bucket.clear();
-        bucket.extend(slots[from as usize..end as usize].iter().map(|&slot| keyed(facet(cells, slot), slot)));
+        let bucket = &slots[from as usize..end as usize];
         from = end;
-        bucket.sort_unstable();
-        for same in bucket.chunk_by(|a, b| a.0 == b.0) {
-            match *same {
-                [_] => {}
-                [(_, s), (_, t)] if (s ^ t) >> 32 == 1 => {
-                    glue.across[s as u32 as usize] = t as u32;
-                    glue.across[t as u32 as usize] = s as u32;
-                }
-                _ => glue.clashes.push(same.iter().map(|s| s.1 as u32).collect()),
-            }
+        if bucket.len() > SMALL || !glue.match_by_table(cells, bucket, &mut table) {
+            glue.match_by_sorting(cells, bucket);
         }
     }
     glue
+}
+
+/// Buckets up to this size, real ones and more, are matched by a table, whose worst case is quadratic; larger ones by sorting.
+const SMALL: usize = 256;
+
+/// The facets of a bucket by their two larger vertices, in places that a product scatters: of each place the key (0: free) and the slot, with bit
+/// 32 as `keyed` gives it and bit 33 for what is matched.
+#[derive(Default)]
+struct Table(Vec<(u64, u64)>);
+
+impl Glue {
+    fn join(&mut self, cells: &[[u32; 4]], s: u32, t: u32) {
+        for (s, t) in [(s, t), (t, s)] {
+            self.across[s as usize] = t;
+            self.far[s as usize] = cells[(t / 4) as usize][(t % 4) as usize];
+        }
+    }
+
+    /// Matches the facets of a bucket; false if some clash, and then none are.
+    fn match_by_table(&mut self, cells: &[[u32; 4]], bucket: &[u32], Table(table): &mut Table) -> bool {
+        let size = (2 * bucket.len()).next_power_of_two();
+        let shift = 64 - size.trailing_zeros();
+        table.clear();
+        table.resize(size, (0, 0));
+        for &slot in bucket {
+            let (key, marked) = keyed(facet(cells, slot), slot);
+            // The golden ratio spreads consecutive keys best (Knuth).
+            let mut place = (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> shift) as usize;
+            while table[place].0 != key && table[place].0 != 0 {
+                place = (place + 1) & (size - 1);
+            }
+            let (found, other) = &mut table[place];
+            if *found == 0 {
+                (*found, *other) = (key, marked);
+            } else if (*other ^ marked) >> 32 == 1 {
+                self.join(cells, *other as u32, slot);
+                *other |= 2 << 32;
+            } else {
+                for &slot in bucket {
+                    self.across[slot as usize] = BORDER;
+                    self.far[slot as usize] = BORDER;
+                }
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Matches the facets of a bucket and reports what clashes.
+    fn match_by_sorting(&mut self, cells: &[[u32; 4]], bucket: &[u32]) {
+        let mut facets: Vec<(u64, u64)> = bucket.iter().map(|&slot| keyed(facet(cells, slot), slot)).collect();
+        facets.sort_unstable();
+        for same in facets.chunk_by(|a, b| a.0 == b.0) {
+            match *same {
+                [_] => {}
+                [(_, s), (_, t)] if (s ^ t) >> 32 == 1 => self.join(cells, s as u32, t as u32),
+                _ => self.clashes.push(same.iter().map(|s| s.1 as u32).collect()),
+            }
+        }
+    }
 }
 
 /// Slots by the smallest vertex of their facets: where each bucket ends, and the slots.
@@ -119,13 +173,27 @@ mod tests {
     fn two_cells_and_what_clashes() {
         // Seen from 3 the facet 0, 1, 2 turns counterclockwise, seen from 4 clockwise.
         let pair = glue(&[[0, 1, 2, 3], [4, 0, 1, 2]], 5);
-        let mut expected = vec![BORDER; 8];
-        (expected[3], expected[4]) = (4, 3);
-        assert_eq!(pair, Glue { across: expected, clashes: vec![] });
+        let mut across = vec![BORDER; 8];
+        let mut far = across.clone();
+        (across[3], across[4], far[3], far[4]) = (4, 3, 4, 3);
+        assert_eq!(pair, Glue { across, far, clashes: vec![] });
         let same_side = glue(&[[0, 1, 2, 3], [0, 1, 2, 4]], 5);
-        assert_eq!(same_side, Glue { across: vec![BORDER; 8], clashes: vec![vec![3, 7]] });
+        let none = vec![BORDER; 8];
+        assert_eq!(same_side, Glue { across: none.clone(), far: none, clashes: vec![vec![3, 7]] });
         let three = glue(&[[0, 1, 2, 3], [4, 0, 1, 2], [0, 1, 2, 5]], 6);
         assert_eq!(three.clashes, [vec![3, 11, 4]]);
         assert_eq!(glue(&[[5, 1, 2, 3], [5, 1, 2, 3]], 6).clashes.len(), 4);
+    }
+
+    #[test]
+    fn large_buckets_match_as_small_ones() {
+        // A fan around an edge of vertex 0 or of the last vertex: one large bucket, or many small ones.
+        let n = 3 * SMALL as u32;
+        let fan: Vec<[u32; 4]> = (0..n).map(|i| [0, 1, i + 2, (i + 1) % n + 2]).collect();
+        let renamed: Vec<[u32; 4]> = fan.iter().map(|t| t.map(|v| n + 1 - v)).collect();
+        let (large, small) = (glue(&fan, n as usize + 2), glue(&renamed, n as usize + 2));
+        assert_eq!(large.across, small.across);
+        assert_eq!(large.across.iter().filter(|&&s| s != BORDER).count(), 2 * n as usize);
+        assert!(large.clashes.is_empty() && small.clashes.is_empty());
     }
 }
