@@ -143,14 +143,46 @@ impl<'a> Complex<'a> {
         let Glue { across, far, clashes } = glue::glue(&self.cells, self.sites.len());
         (self.across, self.far) = (across, far);
         for slots in clashes {
-            let mut cells: Vec<u32> = slots.iter().map(|&s| self.cell_in_file(s)).collect();
+            let mut apart = slots.clone();
+            apart.sort_by_key(|&s| (self.apex(s), self.in_file[(s / 4) as usize]));
+            for same in apart.chunk_by(|&s, &t| self.apex(s) == self.apex(t)).filter(|same| same.len() > 1) {
+                self.doubled(same, report);
+            }
+            apart.dedup_by_key(|s| self.apex(*s));
+            let turned = |s: u32| self.turns_up(s);
+            if let [_] = apart[..] {
+                continue;
+            }
+            if let [s, t] = apart[..]
+                && turned(s) != turned(t)
+            {
+                continue;
+            }
+            let mut cells: Vec<u32> = apart.iter().map(|&s| self.cell_in_file(s)).collect();
             cells.sort_unstable();
             let facet @ [a, b, c] = self.facet(slots[0]);
-            let doubled = slots.windows(2).all(|pair| self.apex(pair[0]) == self.apex(pair[1]));
             report.violated(self.subject, &facet, &cells, || match cells.len() {
-                _ if doubled => format!("cells {cells:?} have the same corners, facet {a}, {b}, {c} among them"),
                 2 => format!("cells {cells:?} lie on the same side of their common facet {a}, {b}, {c}"),
                 n => format!("facet {a}, {b}, {c} belongs to {n} cells: {cells:?}"),
+            });
+        }
+    }
+
+    /// Whether a facet, from its smallest corner on, turns to the larger of the others last.
+    fn turns_up(&self, slot: u32) -> bool {
+        let [a, b, c] = self.facet(slot);
+        // Of the three rotations of an ascending triple each descends once.
+        usize::from(a > b) + usize::from(b > c) + usize::from(c > a) == 1
+    }
+
+    /// Slots of cells with the same corners; told at one of their four facets.
+    fn doubled(&self, slots: &[u32], report: &mut ClaimReport) {
+        let cell = self.cells[(slots[0] / 4) as usize];
+        if cell.iter().min() == Some(&self.apex(slots[0])) {
+            let cells: Vec<u32> = slots.iter().map(|&s| self.cell_in_file(s)).collect();
+            let [a, b, c, d] = cell;
+            report.violated(self.subject, &cell, &cells, || {
+                format!("cells {cells:?} have the same corners {a}, {b}, {c}, {d}")
             });
         }
     }
