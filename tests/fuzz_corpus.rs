@@ -3,7 +3,7 @@
 
 use arbitrary::{Arbitrary, Unstructured};
 use orthoball::attack::readers::{self, Target};
-use orthoball::attack::{CdtCase, GcdrCase, KernelCase, MutatedMeshCase, MutatedTraceCase, UserCase};
+use orthoball::attack::{CdtCase, GcdrCase, KernelCase, KernelCase3, MutatedMeshCase, MutatedTraceCase, UserCase};
 use orthoball::trace::{Event, Record, SkipReason, SplitKind, Why};
 use std::path::Path;
 
@@ -36,6 +36,13 @@ fn decoded<'a, C: Arbitrary<'a>>(bytes: &'a [u8]) -> Option<C> {
 fn kernels() {
     replay("kernels", |bytes| {
         decoded::<KernelCase>(bytes).iter().for_each(KernelCase::run);
+    });
+}
+
+#[test]
+fn kernels3() {
+    replay("kernels3", |bytes| {
+        decoded::<KernelCase3>(bytes).iter().for_each(KernelCase3::run);
     });
 }
 

@@ -317,20 +317,28 @@ fn maybe_point(p: Result<Point3, ConstructionError>) -> String {
 
 #[test]
 fn fast_and_exact_agree_to_the_bit() {
-    let (mut compared, mut all) = (0, Shares::default());
-    for family in FAMILIES {
-        let mut shares = Shares::default();
+    let one = |family: Family| {
+        let (mut compared, mut shares) = (0, Shares::default());
         for number in 0..cases() / 4 {
             let case = Case::new(family, number);
             stages::take();
             let (fast, exact) = (case.answers::<FastKernel>(), case.answers::<ExactKernel>());
             compared += shares.add_equal(fast, exact, || format!("{family:?} {number}: {case:?}"));
         }
+        (compared, shares)
+    };
+    let counts = std::thread::scope(|scope| {
+        let running = FAMILIES.map(|family| scope.spawn(move || one(family)));
+        running.map(|family| family.join().expect("no disagreement"))
+    });
+    let (mut compared, mut all) = (0, Shares::default());
+    for (family, (n, shares)) in FAMILIES.iter().zip(counts) {
         println!(
             "{family:?}: answers by running filter, by double-double, by exact integers, by integers of fixed width"
         );
         shares.print();
         all.add(&shares);
+        compared += n;
     }
     println!("{compared} answers compared");
     every_stage_is_reached(&all);
