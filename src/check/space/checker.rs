@@ -123,13 +123,15 @@ impl Checker3 {
             Record3::Start { apexes, simplices } => {
                 self.at(Stage::Domain, Stage::Domain)?;
                 self.stage = Stage::Start;
-                ensure(apexes.len() <= 3, Rule::Dimension, || ("at most three apexes", format!("{}", apexes.len())))?;
+                let sane = if *simplices == 0 { apexes.is_empty() } else { apexes.len() <= 3 };
+                ensure(sane, Rule::Dimension, || {
+                    ("at most three apexes, and none without simplices", format!("{}", apexes.len()))
+                })?;
                 self.apexes.clone_from(apexes);
                 self.replay.set_apexes(apexes);
                 self.simplices_left = *simplices;
                 if *simplices == 0 {
                     self.stage = Stage::Events;
-                    self.replay.set_apexes(&[]);
                 }
                 Ok(())
             }

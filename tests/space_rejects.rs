@@ -1,0 +1,265 @@
+//! What strict verification without digests must refuse of a trace of space: every changed field of every event, simplices and events dropped,
+//! doubled, swapped or cut off. Points and weights are input: a changed one is refused by the digest of the triangulation.
+#![cfg(feature = "generators")]
+
+use orthoball::arith::FastKernel;
+use orthoball::check::{Checker, Options, Verdict};
+use orthoball::generators::{SpaceFamily, SplitMix64, WeightFamily, weighted_points};
+use orthoball::model::{PointSet3, VertexId, WeightedPoint};
+use orthoball::refine::regular::{Certificate, Session, triangulate3};
+use orthoball::trace::{Apex, Bits, Event3, INFINITE, Record, Record3, Recorder, apex_id};
+use std::collections::BTreeMap;
+
+const STRICT: Options = Options { strict: true, digests: false };
+
+fn traces(points: &[WeightedPoint]) -> Vec<Vec<Record>> {
+    let weights = points.iter().map(|p| p.weight).collect();
+    let set = PointSet3 { points: points.iter().map(|p| p.at).collect(), weights, ..PointSet3::default() };
+    let mut all = Vec::new();
+    for certificate in [Certificate::Final, Certificate::Steps] {
+        let mut recorder = Recorder::default();
+        if triangulate3::<FastKernel>(&set, certificate, 1, &mut recorder).is_ok() {
+            all.push(recorder.0);
+        }
+    }
+    let mut recorder = Recorder::default();
+    let mut session = Session::<FastKernel>::new(6, &mut recorder).expect("a recorder takes all");
+    if points.iter().all(|p| session.insert(*p).is_ok()) && session.finish().is_ok() {
+        all.push(recorder.0);
+    }
+    all
+}
+
+/// True traces of every kind.
+fn samples() -> Vec<Vec<Record>> {
+    let mut samples = Vec::new();
+    for (k, family) in SpaceFamily::ALL.into_iter().enumerate() {
+        for (l, weights) in WeightFamily::ALL.into_iter().enumerate() {
+            let n = [5, 9, 16, 24][(k + l) % 4];
+            samples.extend(traces(&weighted_points(family, weights, n, &mut SplitMix64((31 * k + l) as u64))));
+        }
+    }
+    samples.iter().for_each(|s| assert!(!refused(s, STRICT), "a sample is refused as it is"));
+    samples
+}
+
+/// Whether the rest of a trace is refused by a checker that has accepted what precedes it.
+fn refused_after(mut checker: Checker, rest: &[Record]) -> bool {
+    rest.iter().any(|record| checker.push(record).is_err()) || matches!(checker.finish(), Verdict::Rejected(_))
+}
+
+fn refused(trace: &[Record], options: Options) -> bool {
+    refused_after(Checker::new(options), trace)
+}
+
+/// The single-field changes of a record, with the names of the fields.
+fn changes(record: &Record, points: u32) -> Vec<(&'static str, Record)> {
+    let mut all = Vec::new();
+    let mut add = |name: &'static str, changed: Record3| {
+        let changed = Record::Space(changed);
+        if changed != *record {
+            all.push((name, changed));
+        }
+    };
+    let others = |v: VertexId| [v.0.wrapping_add(1) % points, v.0.wrapping_sub(1).min(points - 1), 0].map(VertexId);
+    let Record::Space(record3) = record else { return all };
+    let tuples = |t: &[VertexId; 4]| {
+        let mut list = Vec::new();
+        for k in 0..4 {
+            for other in others(t[k]).into_iter().chain([INFINITE, apex_id(0)]) {
+                let mut changed = *t;
+                changed[k] = other;
+                list.push(changed);
+            }
+            let mut turned = *t;
+            turned.swap(k, (k + 1) % 4);
+            list.push(turned);
+        }
+        list
+    };
+    let apex_lists = |apexes: &Vec<Apex>| {
+        let mut list = vec![apexes.iter().copied().chain([Apex::ALL[5]]).collect(), Vec::new()];
+        for k in 0..apexes.len() {
+            for other in Apex::ALL {
+                let mut changed = apexes.clone();
+                changed[k] = other;
+                list.push(changed);
+            }
+        }
+        list
+    };
+    match record3 {
+        Record3::Start { apexes, simplices } => {
+            add("start simplices", Record3::Start { apexes: apexes.clone(), simplices: simplices + 1 });
+            add("start simplices", Record3::Start { apexes: apexes.clone(), simplices: simplices.saturating_sub(1) });
+            for changed in apex_lists(apexes) {
+                add("start apexes", Record3::Start { apexes: changed, simplices: *simplices });
+            }
+        }
+        Record3::Simplex(t) => tuples(t).into_iter().for_each(|t| add("simplex", Record3::Simplex(t))),
+        Record3::Event(event) => match event {
+            Event3::Insert { id, first, flood } => {
+                for id in others(*id) {
+                    add("insert id", Record3::Event(Event3::Insert { id, first: *first, flood: flood.clone() }));
+                }
+                for first in tuples(first) {
+                    add("insert first", Record3::Event(Event3::Insert { id: *id, first, flood: flood.clone() }));
+                }
+                let bits = |change: &dyn Fn(u32, bool) -> bool| -> Bits {
+                    (0..flood.len()).map(|k| change(k, flood.get(k) == Some(true))).collect()
+                };
+                let with = |flood| Record3::Event(Event3::Insert { id: *id, first: *first, flood });
+                (0..flood.len()).for_each(|j| add("insert flood", with(bits(&|k, b| b ^ (k == j)))));
+                let whole = bits(&|_, b| b);
+                let longer = |bit| -> Bits { (0..flood.len()).filter_map(|k| whole.get(k)).chain([bit]).collect() };
+                add("insert flood longer", with(longer(false)));
+                add("insert flood longer", with(longer(true)));
+                let shorter = (1..flood.len()).filter_map(|k| whole.get(k - 1)).collect();
+                add("insert flood shorter", with(shorter));
+            }
+            Event3::Hide { id, cell } => {
+                others(*id).into_iter().for_each(|id| add("hide id", Record3::Event(Event3::Hide { id, cell: *cell })));
+                tuples(cell).into_iter().for_each(|c| add("hide cell", Record3::Event(Event3::Hide { id: *id, cell: c })));
+                add("hide instead", Record3::Event(Event3::Duplicate { id: *id, of: cell[0] }));
+            }
+            Event3::Duplicate { id, of } => {
+                for other in others(*id) {
+                    add("duplicate id", Record3::Event(Event3::Duplicate { id: other, of: *of }));
+                }
+                for other in others(*of) {
+                    add("duplicate of", Record3::Event(Event3::Duplicate { id: *id, of: other }));
+                }
+            }
+            Event3::Raise { id, apexes } => {
+                for other in others(*id) {
+                    add("raise id", Record3::Event(Event3::Raise { id: other, apexes: apexes.clone() }));
+                }
+                for apexes in apex_lists(apexes) {
+                    add("raise apexes", Record3::Event(Event3::Raise { id: *id, apexes }));
+                }
+            }
+            Event3::Remove { id, created } => {
+                for other in others(*id) {
+                    add("remove id", Record3::Event(Event3::Remove { id: other, created: created.clone() }));
+                }
+                for k in 0..created.len() {
+                    for other in others(created[k]) {
+                        let mut created = created.clone();
+                        created[k] = other;
+                        add("remove created", Record3::Event(Event3::Remove { id: *id, created }));
+                    }
+                    let mut fewer = created.clone();
+                    fewer.remove(k);
+                    add("remove created fewer", Record3::Event(Event3::Remove { id: *id, created: fewer }));
+                }
+            }
+            Event3::Succeed { id, by } => {
+                for other in others(*id) {
+                    add("succeed id", Record3::Event(Event3::Succeed { id: other, by: *by }));
+                    add("succeed by", Record3::Event(Event3::Succeed { id: *id, by: other }));
+                }
+            }
+            Event3::Lower { id, apexes } => {
+                for other in others(*id) {
+                    add("lower id", Record3::Event(Event3::Lower { id: other, apexes: apexes.clone() }));
+                }
+                for apexes in apex_lists(apexes) {
+                    add("lower apexes", Record3::Event(Event3::Lower { id: *id, apexes }));
+                }
+            }
+        },
+        Record3::End(end) => {
+            for k in 0..5 {
+                let mut end = end.clone();
+                let c = &mut end.counts;
+                *[&mut c.vertices, &mut c.hidden, &mut c.duplicates, &mut c.removed, &mut c.simplices][k] += 1;
+                add("end counts", Record3::End(end));
+            }
+        }
+        Record3::Header(_) | Record3::Vertex { .. } | Record3::Weight { .. } => {}
+    }
+    all
+}
+
+#[test]
+fn every_changed_field_is_refused() {
+    let mut tried = BTreeMap::new();
+    for trace in samples() {
+        let points = trace.iter().filter(|r| matches!(r, Record::Space(Record3::Vertex { .. }))).count() as u32;
+        let mut checker = Checker::new(STRICT);
+        for (at, record) in trace.iter().enumerate() {
+            for (name, changed) in changes(record, points.max(1)) {
+                let mut rest = trace[at..].to_vec();
+                rest[0] = changed;
+                assert!(refused_after(checker.clone(), &rest), "{name}: record {at} {record:?} as {:?}", rest[0]);
+                *tried.entry(name).or_insert(0) += 1;
+            }
+            checker.push(record).expect("a true trace");
+        }
+    }
+    println!("{tried:#?}");
+    for name in [
+        "start simplices", "start apexes", "simplex", "insert id", "insert first", "insert flood", "insert flood longer",
+        "insert flood shorter", "hide id", "hide cell", "hide instead", "duplicate id", "duplicate of", "raise id",
+        "raise apexes", "end counts",
+    ] {
+        assert!(tried.get(name).is_some_and(|n| *n >= 20), "{name} is hardly tried");
+    }
+}
+
+#[test]
+fn records_dropped_doubled_swapped_or_cut_off_are_refused() {
+    let mut tried = 0;
+    for trace in samples() {
+        let mut checker = Checker::new(STRICT);
+        for at in 0..trace.len() {
+            let input = matches!(trace[at], Record::Space(Record3::Header(_) | Record3::Vertex { .. } | Record3::Weight { .. }));
+            if !input {
+                let rest = &trace[at..];
+                let doubled = [&rest[..1], rest].concat();
+                let mut variants = vec![("dropped", rest[1..].to_vec()), ("doubled", doubled), ("cut off", Vec::new())];
+                // A point may be stated earlier or later than it is placed.
+                let next_is_input = matches!(rest.get(1), Some(Record::Space(Record3::Vertex { .. })));
+                if rest.len() > 1 && !next_is_input {
+                    let mut swapped = rest.to_vec();
+                    swapped.swap(0, 1);
+                    variants.push(("swapped", swapped));
+                }
+                for (what, rest) in variants {
+                    assert!(refused_after(checker.clone(), &rest), "{what}: record {at}, {:?}", trace[at]);
+                    tried += 1;
+                }
+            }
+            checker.push(&trace[at]).expect("a true trace");
+        }
+    }
+    assert!(tried > 5_000, "{tried}");
+}
+
+/// One unit in the last place of a coordinate or weight, a place in the input: the digest binds them.
+#[test]
+fn changed_points_are_refused_by_the_digest() {
+    let mut tried = 0;
+    for trace in samples() {
+        for at in 0..trace.len() {
+            let Record::Space(Record3::Vertex { point, input }) = &trace[at] else { continue };
+            let weighted = matches!(trace[0], Record::Space(Record3::Header(h)) if h.weighted);
+            for k in 0..4 + usize::from(input.is_some()) {
+                let (mut p, mut place) = (*point, *input);
+                match k {
+                    0 => p.at.x = p.at.x.next_up(),
+                    1 => p.at.y = p.at.y.next_down(),
+                    2 => p.at.z = p.at.z.next_up(),
+                    3 if weighted => p.weight = p.weight.next_up(),
+                    3 => continue,
+                    _ => place = place.map(|k| k + 1),
+                }
+                let mut changed = trace.clone();
+                changed[at] = Record::Space(Record3::Vertex { point: p, input: place });
+                assert!(refused(&changed, Options { strict: false, digests: true }), "{:?}", changed[at]);
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 2_000, "{tried}");
+}
