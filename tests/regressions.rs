@@ -5,9 +5,9 @@ use orthoball::arith::FastKernel;
 use orthoball::attack::{CdtCase, CdtStep};
 use orthoball::check::{Options, Rule, Verdict, verify};
 use orthoball::io::parse_poly;
-use orthoball::model::{Fill, GcdrParameters, Point2, Pslg, VertexId};
+use orthoball::model::{Choice, Fill, GcdrParameters, Point2, Pslg, VertexId};
 use orthoball::refine::{self, gcdr};
-use orthoball::trace::{Event, Record, Recorder};
+use orthoball::trace::{Event, Record, Recorder, Why};
 
 /// Circumcenters and midpoints, 25 degrees.
 fn parameters() -> GcdrParameters {
@@ -114,6 +114,38 @@ fn a_split_point_stays_on_its_side_of_a_gap() {
         ],
     };
     case.run();
+}
+
+/// Answers with centers, and with midpoints an ulp above.
+struct AnUlpAbove;
+
+impl refine::Chooser for AnUlpAbove {
+    fn in_disk(&mut self, request: &refine::DiskRequest) -> Point2 {
+        request.center
+    }
+
+    fn in_interval(&mut self, request: &refine::IntervalRequest) -> Point2 {
+        let middle = request.ends[0].midpoint(request.ends[1]);
+        Point2::new(middle.x, middle.y.next_up())
+    }
+}
+
+/// The checker rejected a split point that was off its segment towards a vertex on the diametral circle: nearer to that by the deviation, and
+/// further from the ends of the segment.
+#[test]
+fn a_split_point_may_be_off_towards_a_vertex_on_the_circle() {
+    let poly = "5 2\n1 0 0.25\n2 1 0.25\n3 1 1.25\n4 0 1.25\n5 0.5 0.75\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
+    let input = parse_poly(poly.as_bytes(), None).expect("a good file");
+    let params = GcdrParameters { max_area: Some(0.2), choice_b: Choice::User, ..GcdrParameters::chew(4.0) };
+    let mut recorder = Recorder::default();
+    let mut options = refine::Options { chooser: Some(&mut AnUlpAbove), max_steps: 1, ..refine::Options::default() };
+    gcdr::run::<FastKernel>(&input.pslg, &params, &mut options, &mut recorder).expect("a run");
+    let split = recorder.0.iter().find_map(|r| match r {
+        Record::Event(Event::Insert { p, why: Why::Split { .. }, .. }) => Some(*p),
+        _ => None,
+    });
+    assert_eq!(split, Some(Point2::new(0.5, 0.25_f64.next_up())));
+    assert_eq!(rule(&recorder.0), None);
 }
 
 /// Not a finding, but what too strict a mend of the one above would break: filler gives way where a border of nearly collinear pieces is split, also

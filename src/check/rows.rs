@@ -135,7 +135,7 @@ enum Row {
     S1Height,
     /// |separator| > l
     S1Longer,
-    /// R >= |p x|
+    /// R >= |p x|; p stands on both sides, nearer to its nearest vertex and further from x by its deviation
     Nearest(Point2),
     /// 2 R >= d1 S
     B1,
@@ -261,15 +261,22 @@ fn holds(row: Row, c: &Case, delta: f64) -> bool {
     {
         return true;
     }
-    // sqrt(greater) + delta sqrt(factor) >= sqrt(lesser), from bounds.
-    let [greater, lesser, factor] = sides::<Approx>(row, c).map(Approx::bounds);
     delta > 0.0
-        && greater.0.max(0.0).sqrt().next_down() + delta * factor.0.max(0.0).sqrt().next_down() * LOW
-            >= lesser.1.sqrt().next_up()
+        && (!super::value::sign_of!(excess(row, c, delta)).is_positive()
+            || !super::value::sign_of!(room(row, c, delta)).is_negative())
 }
 
-/// Covers the roundings of a product and a sum.
-const LOW: f64 = 1.0 - 1e-15;
+/// sqrt(lesser) <= sqrt(greater) + delta sqrt(factor), squared: E = lesser - greater - delta^2 factor is at most 2 delta sqrt(greater factor), that
+/// is E <= 0, or E^2 <= 4 delta^2 greater factor.
+fn excess<N: Number>(row: Row, c: &Case, delta: f64) -> N {
+    let [greater, lesser, factor] = sides::<N>(row, c);
+    lesser - greater - N::of(delta).square() * factor
+}
+
+fn room<N: Number>(row: Row, c: &Case, delta: f64) -> N {
+    let [greater, _, factor] = sides::<N>(row, c);
+    N::of(4.0) * N::of(delta).square() * greater * factor - excess::<N>(row, c, delta).square()
+}
 
 fn require(rule: Rule, row: Row, c: &Case, delta: f64) -> Checked {
     ensure(holds(row, c, delta), rule, || {
@@ -360,8 +367,8 @@ pub fn after_split(
 
 fn type_b(replay: &Replay, split: &Split, case: &Case, parent: u32, p: u32) -> Checked {
     let delta = [p, split.ends[0], split.ends[1], parent].iter().map(|&v| deviation(replay, v)).sum();
-    if !holds(Row::Nearest(case.s[0]), case, delta) {
-        require(Rule::B1, Row::Nearest(case.s[1]), case, delta)?;
+    if !holds(Row::Nearest(case.s[0]), case, 2.0 * delta) {
+        require(Rule::B1, Row::Nearest(case.s[1]), case, 2.0 * delta)?;
     }
     require(Rule::B1, Row::B1, case, delta)?;
     if split.cause != Cause::Skinny {
@@ -398,7 +405,7 @@ fn external_parent_is_near(case: &Case, delta: f64) -> bool {
         let k = 1.0 - case.deltas.d1 + ((2.0 - case.deltas.d2) / case.deltas.d2).sqrt();
         let reach = k * distance2::<Approx>(u, v).bounds().0.max(0.0).sqrt() * (1.0 - 1e-14);
         let needed = 2.0 * distance2::<Approx>(case.p, case.parent).bounds().1.sqrt() * (1.0 + 1e-14);
-        if reach + delta * LOW >= needed {
+        if reach + delta * (1.0 - 1e-15) >= needed {
             return true;
         }
     }
@@ -418,8 +425,8 @@ fn external_parent_is_near(case: &Case, delta: f64) -> bool {
 fn type_c(replay: &Replay, split: &Split, case: &mut Case, parent: u32, p: u32) -> Checked {
     let delta = [p, split.ends[0], split.ends[1], parent].iter().map(|&v| deviation(replay, v)).sum();
     let candidates = [case.parent, case.s[0], case.s[1]];
-    let Some(nearest) = candidates.iter().position(|&x| holds(Row::Nearest(x), case, delta)) else {
-        return require(Rule::C1, Row::Nearest(case.parent), case, delta);
+    let Some(nearest) = candidates.iter().position(|&x| holds(Row::Nearest(x), case, 2.0 * delta)) else {
+        return require(Rule::C1, Row::Nearest(case.parent), case, 2.0 * delta);
     };
     if nearest != 0 {
         require(Rule::C1, Row::C1, case, delta)?;
