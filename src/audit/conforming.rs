@@ -4,7 +4,8 @@
 //! - every input vertex is a vertex of the mesh, at exactly its coordinates;
 //! - every input segment ab is a chain of mesh edges from a to b, each vertex farther along ab than the one before, none
 //!   farther from the line ab than `within` units in the last place of the mesh's largest coordinate;
-//! - every border edge is in such a chain (unless the convex hull is to be meshed);
+//! - chains meet where segments do, at their ends: no vertex between a and b is an input vertex, or in another chain;
+//! - every border edge is in such a chain; where the convex hull is to be meshed, its edges are segments too (`hull`);
 //! - no hole seed is covered, and there are at least as many uncovered hole seeds as bounded faces left out.
 //!
 //! Vertices and segments outside of the mesh are exempt and counted: an input may have parts outside of what it encloses.
@@ -17,11 +18,12 @@
 use super::complex::Complex;
 use super::exact::{along, distance_from_line, is_near_line, orient};
 use super::figures::{Classes, Counts};
+use super::hull;
 use super::report::{Claim, ClaimReport, Verdict};
 use super::tree::Tree;
 use super::{Options, Subject};
 use crate::model::words::counted;
-use crate::model::{Fill, Point2, Pslg, Segment, SegmentId, VertexId};
+use crate::model::{Fill, Point2, Pslg, SegmentId, VertexId};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
@@ -79,6 +81,8 @@ struct Search<'a> {
     neighbors: (Vec<u32>, Vec<u32>),
     /// Edges that the file names, the smaller end first, sorted.
     named: Vec<[u32; 2]>,
+    /// Vertices that no further chain may pass: those of the input, and those inside of chains.
+    taken: Vec<bool>,
     border: Vec<u32>,
     border_tree: Tree<Point2>,
     report: ClaimReport,
@@ -103,6 +107,7 @@ impl<'a> Search<'a> {
             ulp,
             neighbors: neighbors(complex),
             named,
+            taken: vec![false; complex.subject.points.len()],
             border,
             border_tree,
             report: ClaimReport::new(Claim::Conforming),
@@ -113,10 +118,13 @@ impl<'a> Search<'a> {
 
     fn run(mut self, segment_lines: &[u32]) -> Conformity {
         let place = self.vertices();
+        place.iter().flatten().for_each(|&v| self.taken[v as usize] = true);
         let mut missing = Vec::new();
-        for (i, s) in self.input.segments.iter().enumerate() {
-            if !self.segment(i, s, &place, segment_lines) {
-                missing.push(*s);
+        let hull = if self.input.fill == Fill::Convex { hull::edges(self.input) } else { Vec::new() };
+        let segments = self.input.segments.iter().enumerate().map(|(i, s)| (s.ends, Some(i)));
+        for (ends, number) in segments.chain(hull.into_iter().map(|ends| (ends, None))) {
+            if !self.segment(ends, number, &place, segment_lines) {
+                missing.push(ends);
             }
         }
         let outside = place.iter().filter(|v| v.is_none()).count();
@@ -173,9 +181,9 @@ impl<'a> Search<'a> {
         winding != 0 || on_border
     }
 
-    /// Whether a segment was found, or reported; false if it lies outside.
-    fn segment(&mut self, i: usize, s: &Segment, place: &[Option<u32>], lines: &[u32]) -> bool {
-        let end = |k: usize| place.get(s.ends[k].index()).copied().flatten();
+    /// Whether a segment, or an edge of the hull without a number, was found, or reported; false if it lies outside.
+    fn segment(&mut self, s: [VertexId; 2], number: Option<usize>, place: &[Option<u32>], lines: &[u32]) -> bool {
+        let end = |k: usize| place.get(s[k].index()).copied().flatten();
         if let (Some(a), Some(b)) = (end(0), end(1)) {
             if a == b {
                 return true;
@@ -185,7 +193,7 @@ impl<'a> Search<'a> {
                 return true;
             }
         }
-        let point = |k: usize| self.input.points.get(s.ends[k].index()).copied();
+        let point = |k: usize| self.input.points.get(s[k].index()).copied();
         let (Some(p), Some(q)) = (point(0), point(1)) else {
             return true;
         };
@@ -194,13 +202,16 @@ impl<'a> Search<'a> {
             let vertices: Vec<u32> = [end(0), end(1)].into_iter().flatten().collect();
             let subject = self.complex.subject;
             self.report.violated(subject, &vertices, &[], || {
+                let [u, v] = s.map(|v| v.0);
+                let Some(i) = number else {
+                    return format!("the edge of the input's hull ({u}, {v}) is no chain of edges");
+                };
                 let line =
                     lines.get(i).filter(|&&l| l > 0).map(|l| format!(", line {l} of the input")).unwrap_or_default();
-                format!("segment {i} of the input ({}, {}{line}) is no chain of edges", s.ends[0].0, s.ends[1].0)
+                format!("segment {i} of the input ({u}, {v}{line}) is no chain of edges")
             });
-            if let Some(w) =
-                self.report.witnesses.last_mut().filter(|_| self.report.violations <= super::LISTED_WITNESSES as u64)
-            {
+            let listed = self.report.violations <= super::LISTED_WITNESSES as u64;
+            if let (Some(w), Some(i)) = (self.report.witnesses.last_mut().filter(|_| listed), number) {
                 w.input.push(SegmentId(i as u32));
             }
         }
@@ -235,7 +246,8 @@ impl<'a> Search<'a> {
                 !tried.contains(&w)
                     && admitted(v, w)
                     && (w == b
-                        || along(p, q, at(w), at(v)) == Ordering::Greater
+                        || !self.taken[w as usize]
+                            && along(p, q, at(w), at(v)) == Ordering::Greater
                             && along(p, q, at(w), q) == Ordering::Less
                             && is_near_line(p, q, at(w), self.tolerance))
             });
@@ -266,6 +278,7 @@ impl<'a> Search<'a> {
             }
         }
         for &v in &chain[1..chain.len() - 1] {
+            self.taken[v as usize] = true;
             let d = distance_from_line(ends[0], ends[1], self.complex.point(v));
             self.deviation = self.deviation.max(d);
         }
@@ -285,11 +298,8 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Every border edge is in a chain, unless the hull is to be meshed.
+    /// Every border edge is in a chain.
     fn border_on_segments(&mut self) {
-        if self.input.fill == Fill::Convex {
-            return;
-        }
         for &h in &self.border {
             if !self.constraints[h as usize] {
                 let [u, v] = self.complex.ends(h);
@@ -304,7 +314,7 @@ impl<'a> Search<'a> {
     /// Hole seeds are not covered; bounded faces left out are at most as many as these.
     ///
     /// The faces: holes of the mesh, and one more for each segment outside that closes a cycle, components of the mesh taken as points.
-    fn faces_left_out(&mut self, place: &[Option<u32>], missing: &[Segment]) {
+    fn faces_left_out(&mut self, place: &[Option<u32>], missing: &[[VertexId; 2]]) {
         let subject = self.complex.subject;
         let mut uncovered = 0;
         for (i, &seed) in self.input.holes.iter().enumerate() {
@@ -327,7 +337,7 @@ impl<'a> Search<'a> {
             classes.join(a, c);
         }
         let node = |v: usize| place[v].unwrap_or((base + v) as u32);
-        let cycles = missing.iter().filter(|s| !classes.join(node(s.ends[0].index()), node(s.ends[1].index()))).count();
+        let cycles = missing.iter().filter(|[u, v]| !classes.join(node(u.index()), node(v.index()))).count();
         let faces = Counts::of(self.complex).holes() + cycles as i64;
         if faces > uncovered && self.report.verdict == Verdict::Holds {
             self.report.violated(subject, &[], &[], || {

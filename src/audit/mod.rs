@@ -29,6 +29,7 @@ mod conforming;
 mod delaunay;
 mod exact;
 mod figures;
+mod hull;
 mod isolated;
 mod report;
 pub mod space;

@@ -240,6 +240,52 @@ fn chains_are_monotone_and_near() {
     assert_eq!(beyond.verdict, Verdict::Violated);
 }
 
+/// A mesh of the hull without a triangle at the hull once conformed.
+#[test]
+fn a_mesh_of_the_hull_reaches_the_hull() {
+    use Verdict::*;
+    // A square with two points on its left side, and one inside; the hull has 6 edges.
+    let p = [&SQUARE[..], &[(0.0, 1.0), (0.0, 3.0), (2.0, 2.0)]].concat();
+    let fan: Triangles = [[0, 1], [1, 2], [2, 3], [3, 5], [5, 4], [4, 0]].iter().map(|&[u, v]| [u, v, 6]).collect();
+    let convex =
+        |p: &[(f64, f64)], s: &[[u32; 2]], holes: &[(f64, f64)]| Pslg { fill: Fill::Convex, ..input(p, s, holes) };
+    let part = convex(&p, &[[0, 6], [6, 1]], &[]);
+    assert_eq!(conforms(&p, &fan, &convex(&p, &[], &[])).verdict, Holds);
+    assert_eq!(conforms(&p, &fan, &part).verdict, Holds);
+    for left_out in 0..6 {
+        let rest = [&fan[..left_out], &fan[left_out + 1..]].concat();
+        assert_eq!(conforms(&p, &rest, &convex(&p, &[], &[])).verdict, Violated, "without triangle {left_out}");
+        // Bounded by segments, but no hole.
+        assert_eq!(conforms(&p, &rest, &part).verdict, Violated, "without triangle {left_out}");
+    }
+    let hole = convex(&p, &[[0, 6], [6, 1]], &[(2.0, 0.5)]);
+    assert_eq!(conforms(&p, &fan[1..], &hole).verdict, Holds);
+    assert_eq!(conforms(&p, &fan[2..], &hole).verdict, Violated);
+    assert_eq!(conforms(&p, &fan, &hole).verdict, Violated);
+    // A corner of the hull is no vertex of the mesh.
+    let cut = [[0, 1, 3], [1, 2, 3]];
+    assert_eq!(conforms(&SQUARE, &cut[..1], &convex(&SQUARE, &[], &[])).verdict, Violated);
+    assert_eq!(conforms(&SQUARE, &cut, &convex(&SQUARE, &[], &[])).verdict, Holds);
+}
+
+/// Two segments nearer to each other than `within` once shared a chain, and the mesh left out what lies between them.
+#[test]
+fn chains_meet_at_ends_of_segments_only() {
+    // A wedge of three ulps: its long sides 0-1 and 0-2, split at 3 and 4.
+    let e = 2f64.powi(-50);
+    let p = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0 * e), (2.0, 0.0), (2.5, 1.875 * e)];
+    let whole = [[0, 3, 4], [3, 1, 4], [1, 2, 4]];
+    let split = input(&p[..3], &[[0, 1], [1, 2], [2, 0]], &[]);
+    let given = input(&p, &[[0, 3], [3, 1], [1, 2], [2, 4], [4, 0]], &[]);
+    for to in [split, given] {
+        assert_eq!(conforms(&p, &whole, &to).verdict, Verdict::Holds);
+        for left_out in 0..3 {
+            let rest = [&whole[..left_out], &whole[left_out + 1..]].concat();
+            assert_eq!(conforms(&p, &rest, &to).verdict, Verdict::Violated, "without triangle {left_out}");
+        }
+    }
+}
+
 #[test]
 fn constraints_hide_vertices() {
     // The wrong diagonal of a kite is constrained Delaunay only if it is a segment.

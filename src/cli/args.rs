@@ -193,6 +193,9 @@ pub struct CheckArgs {
     /// The input it was made from; without it, marked edges are the constraints
     #[arg(long)]
     pub input: Option<PathBuf>,
+    /// The mesh is one of the whole convex hull, as of `mesh --convex` or `triangulate`
+    #[arg(long, requires = "input")]
+    pub convex: bool,
     /// What to check, comma-separated
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub claims: Vec<String>,

@@ -7,6 +7,7 @@ use super::{Answer, Failure, Status, data, talk};
 use crate::arith::angle::rho2_from_min_angle;
 use crate::audit::{Claim, Named, Options, Subject, audit, space};
 use crate::io::{AnyMesh, ForeignMesh, ForeignMesh3};
+use crate::model::Fill;
 use serde_json::json;
 use std::time::Instant;
 
@@ -79,7 +80,8 @@ fn plane(args: &CheckArgs, mesh: &ForeignMesh) -> Answer {
     }
     let rho2 = args.min_angle.map(rho2_from_min_angle).transpose();
     let rho2 = rho2.map_err(|e| Failure::new(format_args!("--min-angle: {e}")))?;
-    let loaded = args.input.as_ref().map(|path| load(path, None)).transpose()?;
+    let fill = args.convex.then_some(Fill::Convex);
+    let loaded = args.input.as_ref().map(|path| load(path, fill)).transpose()?;
     if let (Some(loaded), Some(path)) = (&loaded, &args.input)
         && loaded.refused()
     {
