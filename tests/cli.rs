@@ -261,6 +261,22 @@ fn the_input_is_spared() {
     expect(&f, "mesh part.poly -o part.ele", 2);
 }
 
+/// Errors quote files. A quoted escape sequence once reached the terminal.
+#[test]
+fn what_a_terminal_obeys_is_escaped() {
+    let f = folder("escapes");
+    expect(&f, "mesh LAKE --trace a.jsonl", 0);
+    let whole = fs::read_to_string(f.join("a.jsonl")).unwrap();
+    for (c, escaped) in [("\u{7f}", "\\u007f"), ("\u{9b}31m", "\\u009b31m")] {
+        fs::write(f.join("b.jsonl"), whole.replacen("\"seeds\"", &format!("\"see{c}ds\""), 1)).unwrap();
+        let out = expect(&f, "diff a.jsonl b.jsonl", 2);
+        assert!(text(&out.stderr).contains(&format!("`see{escaped}ds`")), "{}", text(&out.stderr));
+        let v = json(&f, "verify b.jsonl --json", 1);
+        assert!(v["found"].as_str().unwrap().contains(&format!("see{c}ds")), "{v}");
+        assert!(!text(&expect(&f, "verify b.jsonl --json", 1).stdout).contains(c));
+    }
+}
+
 #[test]
 fn both_forms_of_a_trace() {
     let f = folder("forms");
@@ -337,6 +353,16 @@ fn triangulations() {
     assert_eq!(v["mirror"]["verdict"], "identical");
     expect(&f, "verify grid.obt", 0);
     expect(&f, "check grid.off --claims valid,delaunay,canonical", 0);
+    // Against its input as one of the hull, all of it and without its last triangle.
+    let conforming = "check grid.off --input grid.node --convex --claims conforming";
+    expect(&f, conforming, 0);
+    let whole = fs::read_to_string(f.join("grid.off")).unwrap();
+    let (rest, _) = whole.trim_end().rsplit_once('\n').unwrap();
+    fs::write(f.join("grid.off"), rest.replacen(" 72 ", " 71 ", 1)).unwrap();
+    expect(&f, conforming, 1);
+    expect(&f, "mesh LAKE --convex -o lake.vtu", 0);
+    expect(&f, "check lake.vtu --input LAKE --convex", 0);
+    expect(&f, "check lake.vtu --input LAKE", 1);
 }
 
 #[test]

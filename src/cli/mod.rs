@@ -92,11 +92,24 @@ fn dispatch(command: &Command) -> Answer {
 
 /// A line on stderr. A closed stderr is no reason to fail.
 fn talk(line: impl fmt::Display) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", printable(line));
 }
 
 /// A line on stdout.
 fn data(line: impl fmt::Display) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    writeln!(out, "{line}").and_then(|()| out.flush()).map_err(|e| Failure::new(format_args!("stdout: {e}")))
+    writeln!(out, "{}", printable(line))
+        .and_then(|()| out.flush())
+        .map_err(|e| Failure::new(format_args!("stdout: {e}")))
+}
+
+/// A text without characters that a terminal would obey, which files may hold and errors quote. They become escapes that JSON reads, too.
+fn printable(text: impl fmt::Display) -> String {
+    let obeyed = |c: char| c.is_control() && c != '\n' && c != '\t';
+    let text = text.to_string();
+    if !text.contains(obeyed) {
+        return text;
+    }
+    // All control characters are below U+00A0.
+    text.chars().map(|c| if obeyed(c) { format!("\\u{:04x}", u32::from(c)) } else { c.into() }).collect()
 }
