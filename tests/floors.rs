@@ -283,14 +283,16 @@ fn sources() -> Vec<Source> {
             (p, text)
         })
         .collect();
-    // `#[cfg(test)] mod x;` makes x.rs, or the folder x, a test.
+    // `#[cfg(test)] mod x;` makes x.rs, or the folder x, a test; they stand beside mod.rs, and in the folder a of a.rs.
     let mut tests: Vec<PathBuf> = Vec::new();
     for (path, text) in &texts {
+        let opens_a_folder = ["mod.rs", "lib.rs", "main.rs"].iter().any(|name| path.ends_with(name));
+        let place = if opens_a_folder { path.with_file_name("") } else { path.with_extension("") };
         let lines: Vec<&str> = text.lines().map(str::trim).collect();
         for pair in lines.windows(2) {
             let name = pair[1].strip_prefix("mod ").and_then(|n| n.strip_suffix(';'));
             if let (true, Some(name)) = (is_test_attribute(pair[0]), name) {
-                tests.push(path.with_file_name(name));
+                tests.push(place.join(name));
             }
         }
     }

@@ -163,6 +163,42 @@ fn a_split_off_its_segment_is_rejected() {
     }
 }
 
+/// A split point may be off its border by roundings, but not carry the region over a gap onto the border across it.
+#[test]
+fn a_split_over_a_gap_is_rejected() {
+    // A notch 2^-51 wide at the top and closed at (1/2, 1/4): a point off by 2^-50 is on its segment, up to rounding.
+    let e = 2f64.powi(-52);
+    let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.5 + e, 1.0), (0.5, 0.25), (0.5 - e, 1.0), (0.0, 1.0)];
+    let segment = |k: u32| Segment { ends: [VertexId(k), VertexId((k + 1) % 7)], marker: 1, toggles: true };
+    let graph = Pslg {
+        points: corners.iter().map(|&(x, y)| Point2::new(x, y)).collect(),
+        segments: (0..7).map(segment).collect(),
+        ..Pslg::default()
+    };
+    let records = run(&graph, &GcdrParameters { max_area: Some(0.01), ..parameters() });
+    assert!(accepted(&judge(&records, true)));
+    let (at, split) = records
+        .iter()
+        .enumerate()
+        .find_map(|(i, r)| match r {
+            Record::Event(Event::Insert { p, why: Why::Split { .. }, .. }) if 0.5 - e < p.x && p.x < 0.5 => {
+                Some((i, *p))
+            }
+            _ => None,
+        })
+        .expect("a split of the left side of the notch");
+    // In the gap; on the right side; beyond it.
+    for (x, refused) in [(0.5, false), (1.0 - split.x, true), (1.0 - split.x + e, true)] {
+        let mut forged = records[..=at].to_vec();
+        let Record::Event(Event::Insert { p, .. }) = &mut forged[at] else { unreachable!("found above") };
+        *p = Point2::new(x, split.y);
+        let Verdict::Rejected(r) = judge(&forged, false) else { panic!("a prefix was accepted") };
+        let rule = if refused { orthoball::check::Rule::Star } else { orthoball::check::Rule::Stream };
+        assert_eq!(r.rule, rule, "{x}: {r}");
+        assert_eq!(r.expected.contains("across the outside"), refused, "{x}: {r}");
+    }
+}
+
 /// Plain verification does not prove that a segment is in the way of a skipped triangle; it says so.
 #[test]
 fn a_split_limit_is_unchecked_in_plain_verification() {
