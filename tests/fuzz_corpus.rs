@@ -3,7 +3,10 @@
 
 use arbitrary::{Arbitrary, Unstructured};
 use orthoball::attack::readers::{self, Target};
-use orthoball::attack::{CdtCase, GcdrCase, KernelCase, KernelCase3, MutatedMeshCase, MutatedTraceCase, UserCase};
+use orthoball::attack::{
+    CdtCase, GcdrCase, KernelCase, KernelCase3, MutatedMeshCase, MutatedTrace3Case, MutatedTraceCase, UserCase,
+};
+use orthoball::generators::SplitMix64;
 use orthoball::trace::{Event, Record, SkipReason, SplitKind, Why};
 use std::path::Path;
 
@@ -65,6 +68,24 @@ fn mutated_traces() {
     replay("mutated_traces", |bytes| {
         decoded::<MutatedTraceCase>(bytes).iter().for_each(MutatedTraceCase::run);
     });
+}
+
+#[test]
+fn mutated_traces3() {
+    replay("mutated_traces3", |bytes| {
+        decoded::<MutatedTrace3Case>(bytes).iter().for_each(MutatedTrace3Case::run);
+    });
+}
+
+/// Random bytes, as a fuzzer begins with.
+#[test]
+fn random_changes_of_traces_of_space_are_found_out() {
+    let cases = std::env::var("ORTHOBALL_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(2000);
+    let mut draw = SplitMix64(77);
+    for length in 0..cases {
+        let bytes: Vec<u8> = (0..30 + length % 400).map(|_| draw.word() as u8).collect();
+        decoded::<MutatedTrace3Case>(&bytes).iter().for_each(MutatedTrace3Case::run);
+    }
 }
 
 #[test]

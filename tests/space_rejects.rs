@@ -4,7 +4,7 @@
 
 use orthoball::arith::FastKernel;
 use orthoball::check::{Checker, Options, Verdict};
-use orthoball::generators::{SpaceFamily, SplitMix64, WeightFamily, weighted_points};
+use orthoball::generators::{Edit, SpaceFamily, SplitMix64, WeightFamily, edits, weighted_points};
 use orthoball::model::{PointSet3, VertexId, WeightedPoint};
 use orthoball::refine::regular::{Certificate, Session, triangulate3};
 use orthoball::trace::{Apex, Bits, Event3, INFINITE, Record, Record3, Recorder, apex_id};
@@ -30,6 +30,23 @@ fn traces(points: &[WeightedPoint]) -> Vec<Vec<Record>> {
     all
 }
 
+/// A session of insertions, removals and changes of weight; what is refused is left out.
+fn edited(edits: &[Edit]) -> Vec<Record> {
+    let mut recorder = Recorder::default();
+    let mut session = Session::<FastKernel>::new(3, &mut recorder).expect("a recorder takes all");
+    for edit in edits {
+        let points = session.triangulation().point_count() as u32;
+        match *edit {
+            Edit::Insert(p) => drop(session.insert(p)),
+            Edit::Remove(v) if v < points => session.remove(VertexId(v)).expect("a recorder takes all"),
+            Edit::SetWeight(v, w) if v < points => drop(session.set_weight(VertexId(v), w)),
+            Edit::Remove(_) | Edit::SetWeight(..) => {}
+        }
+    }
+    session.finish().expect("a recorder takes all");
+    recorder.0
+}
+
 /// True traces of every kind.
 fn samples() -> Vec<Vec<Record>> {
     let mut samples = Vec::new();
@@ -39,6 +56,16 @@ fn samples() -> Vec<Vec<Record>> {
             samples.extend(traces(&weighted_points(family, weights, n, &mut SplitMix64((31 * k + l) as u64))));
         }
     }
+    for seed in 0..120u64 {
+        let mut family = SpaceFamily::ALL[seed as usize % SpaceFamily::ALL.len()];
+        let mut weights = WeightFamily::ALL[seed as usize / 2 % WeightFamily::ALL.len()];
+        if seed >= 60 {
+            (family, weights) = (SpaceFamily::Duplicates, WeightFamily::Zero);
+        }
+        let points = weighted_points(family, weights, 14, &mut SplitMix64(seed));
+        let edits = edits(&points, 8, seed % 2 == 0, &mut SplitMix64(seed + 99));
+        samples.push(edited(&edits));
+    }
     samples.iter().for_each(|s| assert!(!refused(s, STRICT), "a sample is refused as it is"));
     samples
 }
@@ -46,6 +73,12 @@ fn samples() -> Vec<Vec<Record>> {
 /// Whether the rest of a trace is refused by a checker that has accepted what precedes it.
 fn refused_after(mut checker: Checker, rest: &[Record]) -> bool {
     rest.iter().any(|record| checker.push(record).is_err()) || matches!(checker.finish(), Verdict::Rejected(_))
+}
+
+/// What the caller gave.
+fn is_input(record: &Record) -> bool {
+    let Record::Space(record) = record else { return false };
+    matches!(record, Record3::Header(_) | Record3::Vertex { .. } | Record3::Weight { .. } | Record3::Remove { .. })
 }
 
 fn refused(trace: &[Record], options: Options) -> bool {
@@ -119,7 +152,9 @@ fn changes(record: &Record, points: u32) -> Vec<(&'static str, Record)> {
             }
             Event3::Hide { id, cell } => {
                 others(*id).into_iter().for_each(|id| add("hide id", Record3::Event(Event3::Hide { id, cell: *cell })));
-                tuples(cell).into_iter().for_each(|c| add("hide cell", Record3::Event(Event3::Hide { id: *id, cell: c })));
+                tuples(cell)
+                    .into_iter()
+                    .for_each(|c| add("hide cell", Record3::Event(Event3::Hide { id: *id, cell: c })));
                 add("hide instead", Record3::Event(Event3::Duplicate { id: *id, of: cell[0] }));
             }
             Event3::Duplicate { id, of } => {
@@ -176,7 +211,7 @@ fn changes(record: &Record, points: u32) -> Vec<(&'static str, Record)> {
                 add("end counts", Record3::End(end));
             }
         }
-        Record3::Header(_) | Record3::Vertex { .. } | Record3::Weight { .. } => {}
+        Record3::Header(_) | Record3::Vertex { .. } | Record3::Weight { .. } | Record3::Remove { .. } => {}
     }
     all
 }
@@ -199,9 +234,29 @@ fn every_changed_field_is_refused() {
     }
     println!("{tried:#?}");
     for name in [
-        "start simplices", "start apexes", "simplex", "insert id", "insert first", "insert flood", "insert flood longer",
-        "insert flood shorter", "hide id", "hide cell", "hide instead", "duplicate id", "duplicate of", "raise id",
-        "raise apexes", "end counts",
+        "start simplices",
+        "start apexes",
+        "simplex",
+        "insert id",
+        "insert first",
+        "insert flood",
+        "insert flood longer",
+        "insert flood shorter",
+        "hide id",
+        "hide cell",
+        "hide instead",
+        "duplicate id",
+        "duplicate of",
+        "raise id",
+        "raise apexes",
+        "remove id",
+        "remove created",
+        "remove created fewer",
+        "succeed id",
+        "succeed by",
+        "lower id",
+        "lower apexes",
+        "end counts",
     ] {
         assert!(tried.get(name).is_some_and(|n| *n >= 20), "{name} is hardly tried");
     }
@@ -213,20 +268,24 @@ fn records_dropped_doubled_swapped_or_cut_off_are_refused() {
     for trace in samples() {
         let mut checker = Checker::new(STRICT);
         for at in 0..trace.len() {
-            let input = matches!(trace[at], Record::Space(Record3::Header(_) | Record3::Vertex { .. } | Record3::Weight { .. }));
+            let input = is_input(&trace[at]);
             if !input {
                 let rest = &trace[at..];
                 let doubled = [&rest[..1], rest].concat();
                 let mut variants = vec![("dropped", rest[1..].to_vec()), ("doubled", doubled), ("cut off", Vec::new())];
                 // A point may be stated earlier or later than it is placed.
-                let next_is_input = matches!(rest.get(1), Some(Record::Space(Record3::Vertex { .. })));
+                let next_is_input = rest.get(1).is_some_and(is_input);
                 if rest.len() > 1 && !next_is_input {
                     let mut swapped = rest.to_vec();
                     swapped.swap(0, 1);
                     variants.push(("swapped", swapped));
                 }
                 for (what, rest) in variants {
-                    assert!(refused_after(checker.clone(), &rest), "{what}: record {at}, {:?}", trace[at]);
+                    assert!(
+                        refused_after(checker.clone(), &rest),
+                        "{what}: record {at}, {:#?}",
+                        &trace[at.saturating_sub(3)..]
+                    );
                     tried += 1;
                 }
             }
@@ -240,7 +299,9 @@ fn records_dropped_doubled_swapped_or_cut_off_are_refused() {
 #[test]
 fn changed_points_are_refused_by_the_digest() {
     let mut tried = 0;
-    for trace in samples() {
+    // A weight that is changed later is in no final triangulation.
+    let final_weights = |t: &Vec<Record>| !t.iter().any(|r| matches!(r, Record::Space(Record3::Weight { .. })));
+    for trace in samples().into_iter().filter(final_weights) {
         for at in 0..trace.len() {
             let Record::Space(Record3::Vertex { point, input }) = &trace[at] else { continue };
             let weighted = matches!(trace[0], Record::Space(Record3::Header(h)) if h.weighted);

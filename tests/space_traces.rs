@@ -4,8 +4,12 @@
 
 use orthoball::arith::{ExactKernel, FastKernel, space::Kernel3};
 use orthoball::check::{Checker, Options, Verdict, verify};
-use orthoball::generators::{SpaceFamily, SplitMix64, WeightFamily, strategies::space_cases, weighted_points};
-use orthoball::model::{PointSet3, Triangulation3, WeightedPoint};
+use orthoball::generators::{
+    Edit, SpaceFamily, SplitMix64, WeightFamily,
+    strategies::{edit_cases, space_cases},
+    weighted_points,
+};
+use orthoball::model::{PointSet3, Triangulation3, VertexId, WeightedPoint};
 use orthoball::refine::regular::{Certificate, Session, triangulate3};
 use orthoball::trace::{Format, Reader, Record, Recorder, Sink, Writer};
 use proptest::prelude::*;
@@ -126,6 +130,38 @@ proptest! {
     #[test]
     fn traces_are_accepted(case in space_cases(0..=40)) {
         check(&case.points, "a case");
+    }
+}
+
+/// A session of insertions, removals and changes of weight; what is refused is left out.
+fn edited<K: Kernel3>(edits: &[Edit]) -> (Vec<Record>, Triangulation3) {
+    let mut recorder = Recorder::default();
+    let mut session = Session::<K>::new(3, &mut recorder).expect("a recorder takes all");
+    for edit in edits {
+        let points = session.triangulation().point_count() as u32;
+        match *edit {
+            Edit::Insert(p) => drop(session.insert(p)),
+            Edit::Remove(v) if v < points => session.remove(VertexId(v)).expect("a recorder takes all"),
+            Edit::SetWeight(v, w) if v < points => drop(session.set_weight(VertexId(v), w)),
+            Edit::Remove(_) | Edit::SetWeight(..) => {}
+        }
+    }
+    let t = session.finish().expect("a recorder takes all");
+    (recorder.0, t)
+}
+
+proptest! {
+    #![proptest_config(cases(300))]
+
+    #[test]
+    fn sessions_with_removals_are_accepted(case in edit_cases(0..=40)) {
+        let (records, t) = edited::<FastKernel>(&case.edits);
+        holds(&records, &t, "a session");
+    }
+
+    #[test]
+    fn kernels_write_the_same_sessions(case in edit_cases(0..=20)) {
+        prop_assert_eq!(edited::<FastKernel>(&case.edits), edited::<ExactKernel>(&case.edits));
     }
 }
 

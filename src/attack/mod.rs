@@ -9,6 +9,7 @@
 //! - `CdtCase`: a triangulation under insertions, splits, deletions and rollbacks equals a fresh build and the definition.
 //! - `GcdrCase`: both kernels write the same trace, the strict checker accepts it, both forms of it read back.
 //! - `MutatedTraceCase`: of a true trace with one record changed, or with bytes changed, the strict checker accepts none.
+//! - `MutatedTrace3Case`: the same in space.
 //! - `UserCase`: whatever a user's choices and sizes answer, the run refuses it by name or its trace is accepted.
 //! - `MutatedMeshCase`: the audit calls a changed mesh right exactly if it is.
 //! - `readers`: any bytes are read or refused; what was read, written, and read again is the same.
@@ -19,6 +20,7 @@ mod cdt;
 mod kernels;
 mod kernels3;
 mod mutations;
+mod mutations3;
 pub mod readers;
 mod readers3;
 mod refinement;
@@ -29,5 +31,6 @@ pub use cdt::{CdtCase, Step as CdtStep};
 pub use kernels::KernelCase;
 pub use kernels3::KernelCase3;
 pub use mutations::MutatedTraceCase;
+pub use mutations3::MutatedTrace3Case;
 pub use refinement::GcdrCase;
 pub use users::UserCase;

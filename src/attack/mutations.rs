@@ -38,7 +38,7 @@ impl MutatedTraceCase {
         match draw.below(4) {
             0 | 1 => {
                 let mut changed = trace.clone();
-                edit(&mut changed, draw);
+                rearrange(&mut changed, draw, |record, draw| change(record, draw));
                 self.assert_found_out(&trace, &changed);
             }
             2 => self.change_bytes(&trace, Format::Binary, draw),
@@ -50,19 +50,7 @@ impl MutatedTraceCase {
     fn change_bytes(&self, trace: &[Record], format: Format, draw: &mut Bytes) {
         let original = written(trace, format);
         let mut bytes = original.clone();
-        for _ in 0..=draw.below(3) {
-            let at = draw.take(4) as usize % bytes.len();
-            let value = draw.take(1) as u8;
-            match draw.below(8) {
-                0 => bytes.insert(at, value),
-                1 if bytes.len() > 1 => drop(bytes.remove(at)),
-                2 if at > 0 => bytes.truncate(at),
-                3 => bytes[at] ^= 1 << (value & 7),
-                4 => bytes[at] = bytes[at].wrapping_add(1),
-                5 => bytes[at] = bytes[at].wrapping_sub(1),
-                _ => bytes[at] = value,
-            }
-        }
+        change_bytes(&mut bytes, draw);
         let mut reader = Reader::new(&bytes[..]);
         let changed: Vec<Record> = reader.by_ref().map_while(std::result::Result::ok).collect();
         let sealed = matches!(changed.last(), Some(Record::End(end)) if end.trace == reader.digest());
@@ -122,10 +110,27 @@ fn unsealed(record: &Record) -> Record {
     }
 }
 
+/// Changes up to three bytes.
+pub(super) fn change_bytes(bytes: &mut Vec<u8>, draw: &mut Bytes) {
+    for _ in 0..=draw.below(3) {
+        let at = draw.take(4) as usize % bytes.len();
+        let value = draw.take(1) as u8;
+        match draw.below(8) {
+            0 => bytes.insert(at, value),
+            1 if bytes.len() > 1 => drop(bytes.remove(at)),
+            2 if at > 0 => bytes.truncate(at),
+            3 => bytes[at] ^= 1 << (value & 7),
+            4 => bytes[at] = bytes[at].wrapping_add(1),
+            5 => bytes[at] = bytes[at].wrapping_sub(1),
+            _ => bytes[at] = value,
+        }
+    }
+}
+
 /// Changes one record, or the order of records.
-fn edit(records: &mut Vec<Record>, draw: &mut impl Draw) {
+pub(super) fn rearrange(records: &mut Vec<Record>, draw: &mut Bytes, change: impl Fn(&mut Record, &mut Bytes)) {
     let any = |draw: &mut dyn FnMut() -> u64, n: usize| draw() as usize % n.max(1);
-    let events: Vec<usize> = (0..records.len()).filter(|&k| matches!(records[k], Record::Event(_))).collect();
+    let events: Vec<usize> = (0..records.len()).filter(|&k| records[k].is_event()).collect();
     // Mostly events.
     let at = if events.is_empty() || draw.below(8) == 0 {
         any(&mut || draw.take(4), records.len())

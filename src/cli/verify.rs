@@ -224,7 +224,7 @@ fn place(record: &Record) -> Option<&'static str> {
         Record::End(_) => Some("end"),
         Record::Space(record) => match record {
             Record3::Header(_) => Some("header"),
-            Record3::Vertex { .. } | Record3::Weight { .. } => Some("input"),
+            Record3::Vertex { .. } | Record3::Weight { .. } | Record3::Remove { .. } => Some("input"),
             Record3::Start { .. } | Record3::Simplex(_) => Some("start"),
             Record3::Event(_) => None,
             Record3::End(_) => Some("end"),

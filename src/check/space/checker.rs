@@ -8,7 +8,7 @@ use crate::check::checker::Options;
 use crate::check::scale::power_of_two;
 use crate::check::verdict::{Checked, Place, Rejection, Rule, broken, ensure, placed};
 use crate::model::{Triangulation3, WeightedPoint};
-use crate::trace::{Event3, Record3, triangulation_digest};
+use crate::trace::{Event3, Record3, apex_id, triangulation_digest};
 
 /// Takes a trace of space record by record. Memory: the complex.
 #[derive(Clone, Debug)]
@@ -67,7 +67,7 @@ impl Checker3 {
     pub fn push(&mut self, record: &Record3) -> Result<(), Rejection> {
         let place = match record {
             Record3::Header(_) => Place::Header,
-            Record3::Vertex { .. } | Record3::Weight { .. } => Place::Domain,
+            Record3::Vertex { .. } | Record3::Weight { .. } | Record3::Remove { .. } => Place::Domain,
             Record3::Start { .. } | Record3::Simplex(_) => Place::Start,
             Record3::Event(_) => Place::Event(self.events),
             Record3::End(_) => Place::End,
@@ -94,7 +94,9 @@ impl Checker3 {
             }
             Record3::Vertex { point, input } => {
                 self.at(Stage::Domain, Stage::Events)?;
-                self.replay.check_settled()?;
+                if self.stage == Stage::Events {
+                    self.replay.check_settled()?;
+                }
                 let sane = input.is_some() == self.permuted && (self.replay.weighted || point.weight == 0.0);
                 ensure(sane, Rule::Header, || {
                     ("weights and places in the input as the header says", format!("{point:?}"))
@@ -117,7 +119,15 @@ impl Checker3 {
                 let v = number(*id);
                 let mut point = self.unscaled(self.replay.mesh.point(v));
                 point.weight = *weight;
-                self.replay.reweighted = Some((v, self.scaled(point)?.weight));
+                self.replay.reweigh(v, self.scaled(point)?.weight);
+                Ok(())
+            }
+            Record3::Remove { id } => {
+                self.at(Stage::Events, Stage::Events)?;
+                self.replay.check_settled()?;
+                let known = id.index() < self.replay.points.len();
+                ensure(known, Rule::Domain, || ("a point of the trace", format!("{id:?}")))?;
+                self.replay.pending = Some((number(*id), None));
                 Ok(())
             }
             Record3::Start { apexes, simplices } => {
@@ -142,7 +152,9 @@ impl Checker3 {
                     [a, b, c, d] => a < b && b < c.min(d) && c != d,
                     own => own.is_sorted_by(|a, b| a < b),
                 };
-                ensure(canonical && self.last.is_none_or(|l| l < *t), Rule::Canonical, || {
+                let filled = t[own.len()..].iter().zip(0..).all(|(v, k)| *v == apex_id(k))
+                    && own.iter().all(|v| v.index() < self.replay.points.len());
+                ensure(canonical && filled && self.last.is_none_or(|l| l < *t), Rule::Canonical, || {
                     ("canonical simplices, ascending", format!("{t:?}"))
                 })?;
                 self.last = Some(*t);
@@ -163,6 +175,7 @@ impl Checker3 {
             Record3::End(end) => {
                 self.at(Stage::Events, Stage::Events)?;
                 self.stage = Stage::Ended;
+                self.replay.check_settled()?;
                 claims::check_points(&self.replay)?;
                 let own = claims::counts(&self.replay);
                 ensure(end.counts == own, Rule::Counts, || (format!("{own:?}"), format!("{:?}", end.counts)))?;

@@ -9,7 +9,6 @@ use crate::trace::Counts3;
 
 /// Every point is placed, and every vertex is in a cell.
 pub fn check_points(replay: &Replay) -> Checked {
-    replay.check_settled()?;
     for (v, state) in replay.points.iter() {
         match state {
             State::Unplaced | State::Free => return broken(Rule::Order, "every point placed", format!("{:?}", id(v))),

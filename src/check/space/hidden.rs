@@ -3,7 +3,6 @@
 //! While points are only inserted a hidden one stays hidden: the lower hull only goes down. So where it is matters first when a vertex is
 //! taken out; from then on each tetrahedron has a list of the hidden points in it, which move with insertions, and which a removal sets free.
 
-use super::certificate::{Ties, conflict};
 use super::complex::{Complex, FIRST, NONE, id};
 use crate::check::verdict::{Checked, Rule, broken};
 use std::collections::BTreeMap;
@@ -132,24 +131,9 @@ impl Points {
         Ok(())
     }
 
-    /// The complex was made anew: every hidden point is looked for, and set free where it is in no tetrahedron, or in conflict.
-    pub fn renew_lists(&mut self, mesh: &Complex, ties: Ties) {
-        let mut lists = Lists::default();
-        let first = mesh.tetrahedra().next();
-        let mut from = first;
-        for h in self.hidden() {
-            let found = from.and_then(|c| mesh.locate(c, mesh.at(h)));
-            match found.filter(|&c| !conflict(mesh, c, h, ties)) {
-                Some(c) => lists.attach(c, h),
-                None => self.set(h, State::Free),
-            }
-            from = found.or(first);
-        }
-        self.lists = Some(lists);
-    }
-
-    /// The hidden points, ascending.
-    fn hidden(&self) -> Vec<u32> {
+    /// The complex was made anew: empty lists, and the hidden points, ascending, that are in none.
+    pub fn renew_lists(&mut self) -> Vec<u32> {
+        self.lists = Some(Lists::default());
         self.iter().filter(|(_, s)| *s == State::Hidden).map(|(h, _)| h).collect()
     }
 

@@ -22,8 +22,8 @@ pub struct Replay {
     pub apexes: u32,
     /// Whether points have weights of their own.
     pub weighted: bool,
-    /// A point that waits for the event that takes it out or inserts it again, and its new weight.
-    pub reweighted: Option<(u32, f64)>,
+    /// A point that waits for the event that takes it out, or inserts it again with its new weight.
+    pub pending: Option<(u32, Option<f64>)>,
     ties: Ties,
     cavity: Cavity,
 }
@@ -36,7 +36,7 @@ impl Replay {
             points: Points::default(),
             apexes: 0,
             weighted: false,
-            reweighted: None,
+            pending: None,
             ties: if strict { Ties::Broken } else { Ties::Free },
             cavity: Cavity::default(),
         }
@@ -116,6 +116,16 @@ impl Replay {
 
     // Events.
 
+    /// A point gets another weight: when it is taken out, or at once if it was.
+    pub fn reweigh(&mut self, v: u32, weight: f64) {
+        if self.points.state(v) == State::Removed {
+            self.mesh.set_weight(v, weight);
+            self.points.set(v, State::Free);
+        } else {
+            self.pending = Some((v, Some(weight)));
+        }
+    }
+
     /// Takes one event.
     pub fn event(&mut self, event: &Event3) -> Checked {
         match event {
@@ -129,20 +139,18 @@ impl Replay {
         }
     }
 
-    /// That no point waits for an event.
-    pub fn check_settled(&self) -> Checked {
-        if let Some((v, _)) = self.reweighted {
+    /// That no point waits for an event, of those set free and of those stated.
+    pub fn check_settled(&mut self) -> Checked {
+        if let Some((v, _)) = self.pending {
             return broken(Rule::Order, format!("an event that takes out {:?}", id(v)), "another record");
         }
-        self.points
-            .free
-            .first()
-            .map_or(Ok(()), |&v| broken(Rule::Order, format!("an event that places {:?}", id(v)), "another record"))
+        let due = self.points.due();
+        due.map_or(Ok(()), |v| broken(Rule::Order, format!("an event that places {:?}", id(v)), "another record"))
     }
 
     /// That a point may be placed now: one that is free or unplaced, strictly the one that is due.
     fn check_due(&mut self, v: u32) -> Checked {
-        if let Some((w, _)) = self.reweighted {
+        if let Some((w, _)) = self.pending {
             return broken(Rule::Order, format!("an event that takes out {:?}", id(w)), format!("{:?} placed", id(v)));
         }
         let state = self.points.state(v);
@@ -159,9 +167,10 @@ impl Replay {
     }
 
     fn insert(&mut self, p: u32, first: Tetrahedron, flood: &Bits) -> Checked {
-        let again = self.reweighted.take_if(|(v, _)| *v == p && self.points.state(p) == State::Vertex);
-        match again {
-            Some((_, weight)) => {
+        let vertex = self.points.state(p) == State::Vertex;
+        let again = self.pending.take_if(|(v, weight)| *v == p && vertex && weight.is_some());
+        match again.and_then(|(_, weight)| weight) {
+            Some(weight) => {
                 let before = self.mesh.point(p).weight;
                 ensure(weight >= before, Rule::Order, || ("a vertex whose weight grows", format!("{weight:?}")))?;
                 self.mesh.set_weight(p, weight);
@@ -258,27 +267,51 @@ impl Replay {
         ensure(stands && self.mesh.point(p) == self.mesh.point(of), Rule::Duplicate, || {
             ("a vertex or hidden point of the same place and weight", format!("{:?}", id(of)))
         })?;
-        self.points.set(p, State::Duplicate(of));
-        let list = self.points.duplicates.entry(of).or_default();
-        let at = list.partition_point(|&v| v < p);
-        list.insert(at, p);
+        let mut rest = self.points.duplicates.remove(&p).unwrap_or_default();
+        // The smaller id stands for the other and its duplicates.
+        let (stands, other) = (p.min(of), p.max(of));
+        if p < of {
+            rest.extend(self.take_place(of, p));
+        } else {
+            rest.extend(self.points.duplicates.remove(&of).unwrap_or_default());
+        }
+        rest.push(other);
+        rest.sort_unstable();
+        rest.iter().for_each(|&d| self.points.set(d, State::Duplicate(stands)));
+        self.points.duplicates.insert(stands, rest);
         Ok(())
     }
 
-    /// That a point may be taken out now.
-    fn check_removable(&self, v: u32) -> Checked {
-        match self.reweighted {
-            Some((w, _)) => ensure(v == w, Rule::Order, || {
-                (format!("an event that takes out {:?}", id(w)), format!("{:?} taken out", id(v)))
-            }),
-            None => self.check_settled(),
+    /// A point of the same place and weight takes the place of v, whose duplicates are given back.
+    fn take_place(&mut self, v: u32, by: u32) -> Vec<u32> {
+        let state = self.points.state(v);
+        if state == State::Vertex {
+            let mut star = Vec::new();
+            self.mesh.visit_star(v, |c, cell| {
+                star.extend(cell.find(v).map(|k| (c, k)));
+                true
+            });
+            star.iter().for_each(|&(c, k)| self.mesh.relabel(c, k, by));
+            let c = self.mesh.cell_at(v);
+            self.mesh.set_cell_at(by, c);
+            self.mesh.set_cell_at(v, NONE);
+        } else {
+            self.points.unhide(v, Some(by));
         }
+        self.points.set(by, state);
+        self.points.duplicates.remove(&v).unwrap_or_default()
+    }
+
+    /// That a point may be taken out now: the caller said so.
+    fn check_removable(&self, v: u32) -> Checked {
+        let due = self.pending.map(|(w, _)| w);
+        ensure(due == Some(v), Rule::Order, || (format!("{:?} taken out", due.map(id)), format!("{:?}", id(v))))
     }
 
     /// A point has been taken out: for good, or to be placed again with its new weight, after the points that its removal sets free.
     fn gone(&mut self, v: u32) {
-        match self.reweighted.take() {
-            Some((_, weight)) => {
+        match self.pending.take().and_then(|(_, weight)| weight) {
+            Some(weight) => {
                 self.mesh.set_weight(v, weight);
                 self.points.set(v, State::Free);
             }
@@ -323,9 +356,21 @@ impl Replay {
         if self.apexes > 0 {
             self.check_apexes(made.iter().copied())?;
         }
-        loose.iter().for_each(|&h| self.points.set(h, State::Free));
+        // A star is filled by some cell.
+        let near = made.first().copied().unwrap_or(0);
+        loose.iter().for_each(|&h| self.settle_or_free(h, near));
         self.gone(v);
         Ok(())
+    }
+
+    /// A hidden point that lost its tetrahedron goes to the one that contains it now, or is free where it is off the hull, or in conflict under the tie-break.
+    fn settle_or_free(&mut self, h: u32, from: u32) {
+        let flat = self.apexes == 0 || self.check_flat(&self.base(), h).is_ok();
+        let found = if flat && !self.is_empty() { self.mesh.locate(from, self.mesh.at(h)) } else { None };
+        match found.filter(|&c| !conflict(&self.mesh, c, h, Ties::Broken)) {
+            Some(c) => self.points.hide(h, c),
+            None => self.points.set(h, State::Free),
+        }
     }
 
     fn succeed(&mut self, v: u32, by: u32) -> Checked {
@@ -334,27 +379,12 @@ impl Replay {
         ensure(heir == Some(by), Rule::Duplicate, || {
             (format!("the first duplicate, {:?}", heir.map(id)), format!("{:?}", id(by)))
         })?;
-        let state = self.points.state(v);
-        if state == State::Vertex {
-            let mut star = Vec::new();
-            self.mesh.visit_star(v, |c, cell| {
-                star.extend(cell.find(v).map(|k| (c, k)));
-                true
-            });
-            star.iter().for_each(|&(c, k)| self.mesh.relabel(c, k, by));
-            let c = self.mesh.cell_at(v);
-            self.mesh.set_cell_at(by, c);
-            self.mesh.set_cell_at(v, NONE);
-        } else {
-            self.points.unhide(v, Some(by));
-        }
-        let mut rest = self.points.duplicates.remove(&v).unwrap_or_default();
+        let mut rest = self.take_place(v, by);
         rest.remove(0);
         rest.iter().for_each(|&d| self.points.set(d, State::Duplicate(by)));
         if !rest.is_empty() {
             self.points.duplicates.insert(by, rest);
         }
-        self.points.set(by, state);
         self.gone(v);
         Ok(())
     }
@@ -413,7 +443,10 @@ impl Replay {
         if !cells.is_empty() {
             self.prove(apexes)?;
         }
-        self.points.renew_lists(&self.mesh, self.ties);
+        let from = self.mesh.tetrahedra().next().unwrap_or(0);
+        for h in self.points.renew_lists() {
+            self.settle_or_free(h, from);
+        }
         Ok(())
     }
 }

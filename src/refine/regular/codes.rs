@@ -101,11 +101,9 @@ fn hash(facet: [VertexId; 3]) -> usize {
 }
 
 /// The corners opposite each corner of a positive cell, turned such that (facet, corner) is positive.
-#[allow(dead_code)]
 const FACETS: [[usize; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
 
 /// The apexes of the cells that fill the star of v, in the order of the filling. Both lists are positively oriented cells.
-#[allow(dead_code)] // Removal is still to come.
 pub(super) fn filling(v: VertexId, star: &[[VertexId; 4]], created: &[[VertexId; 4]]) -> Vec<VertexId> {
     let ascending = |mut f: [VertexId; 3]| {
         f.sort_unstable();
@@ -154,7 +152,6 @@ pub(super) fn filling(v: VertexId, star: &[[VertexId; 4]], created: &[[VertexId;
 }
 
 /// The corners of a facet in ascending order, and whether that is an odd permutation.
-#[allow(dead_code)]
 fn turn(f: [VertexId; 3]) -> ([VertexId; 3], bool) {
     let inversions = [(0, 1), (0, 2), (1, 2)].into_iter().filter(|&(i, j): &(usize, usize)| f[i] > f[j]).count();
     let mut sorted = f;

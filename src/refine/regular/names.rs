@@ -2,8 +2,8 @@
 //!
 //! A trace places the apexes by a rule of its own, since the complex does not depend on where they are but for its orientation.
 
-use crate::arith::space::Kernel3;
-use crate::model::{Point3, Sign, Tetrahedron, VertexId, canonical_tetrahedron};
+use crate::arith::space::{Kernel3, WeightedCorners};
+use crate::model::{Point3, Sign, Tetrahedron, VertexId, WeightedPoint, canonical_tetrahedron};
 use crate::trace::{Apex, apex_id};
 use crate::triangulation::regular3::{CellId, Regular3, apex, is_apex};
 
@@ -31,12 +31,30 @@ impl Names {
         for (own, k) in (0..).zip(used) {
             names.renamed[k as usize] = own;
         }
-        let place = |v: VertexId| {
-            if is_apex(v) { names.apexes[names.renamed[apex_number(v)] as usize].place() } else { t.point(v).at }
-        };
-        let [a, b, c, d] = cell.map(place);
+        let [a, b, c, d] = cell.map(|v| names.place(t, v).at);
         names.mirrored = K::orient3d(a, b, c, d).is_negative();
         names
+    }
+
+    /// A vertex in its place, an apex in that of the trace.
+    pub(super) fn place<K: Kernel3>(&self, t: &Regular3<K>, v: VertexId) -> WeightedPoint {
+        match is_apex(v) {
+            true => WeightedPoint::unweighted(self.apexes[self.renamed[apex_number(v)] as usize].place()),
+            false => t.point(v),
+        }
+    }
+
+    /// The corners of a tetrahedron in their places, positively oriented.
+    pub(super) fn places<K: Kernel3>(&self, t: &Regular3<K>, c: CellId) -> WeightedCorners {
+        let [a, b, c, d] = t.vertices(c).map(|v| self.place(t, v));
+        if self.mirrored { [b, a, c, d] } else { [a, b, c, d] }
+    }
+
+    /// Whether q lies in the affine hull of the points of a triangulation of less than three dimensions.
+    pub(super) fn is_flat<K: Kernel3>(&self, t: &Regular3<K>, q: Point3) -> bool {
+        let cell = t.cells().find(|&c| t.is_finite(c)).map(|c| t.vertices(c));
+        let points = cell.into_iter().flatten().filter(|&v| !is_apex(v)).map(|v| t.point(v).at);
+        !independent::<K>(&mut points.chain([q]).collect())
     }
 
     /// The corners of a cell by the names of the trace, positively oriented there.
@@ -53,17 +71,11 @@ impl Names {
     pub(super) fn last_around<K: Kernel3>(&self, t: &Regular3<K>, cell: CellId, v: VertexId) -> Tetrahedron {
         let q = t.point(v).at;
         let tuple = |c: CellId| canonical_tetrahedron(self.corners(t.vertices(c)));
-        let corners = t.vertices(cell);
-        // Only apexes have no place in the triangulation that could be asked for; a cell with some is tested in the trace's places.
-        let place = |v: VertexId| {
-            if is_apex(v) { self.apexes[self.renamed[apex_number(v)] as usize].place() } else { t.point(v).at }
-        };
         let on_facet = |v: [VertexId; 4], k: usize| {
-            let mut p = v.map(place);
+            let mut p = v.map(|v| self.place(t, v).at);
             p[k] = q;
             K::orient3d(p[0], p[1], p[2], p[3]) == Sign::Zero
         };
-        debug_assert!(corners.iter().all(|v| v.0 != u32::MAX));
         let mut seen = vec![cell];
         let mut next = 0;
         while let Some(&c) = seen.get(next) {

@@ -14,6 +14,7 @@ pub(in crate::trace) mod tag {
     pub const START: u8 = 0x53;
     pub const SIMPLEX: u8 = 0x54;
     pub const END: u8 = 0x55;
+    pub const GONE: u8 = 0x56;
     pub const INSERT: u8 = 0x60;
     pub const HIDE: u8 = 0x61;
     pub const DUPLICATE: u8 = 0x62;
@@ -42,6 +43,10 @@ pub(in crate::trace) fn encode(record: &Record3, state: &State3, out: &mut Vec<u
             out.push(tag::WEIGHT);
             put_id(out, *id, state.cursor);
             put_f64(out, *weight);
+        }
+        Record3::Remove { id } => {
+            out.push(tag::GONE);
+            put_id(out, *id, state.cursor);
         }
         Record3::Start { apexes, simplices } => {
             out.push(tag::START);
@@ -134,6 +139,7 @@ pub(in crate::trace) fn decode(tag: u8, cursor: &mut Cursor, state: &State3) -> 
             Record3::Vertex { point: WeightedPoint { at, weight }, input }
         }
         tag::WEIGHT => Record3::Weight { id: id(cursor, state)?, weight: cursor.f64()? },
+        tag::GONE => Record3::Remove { id: id(cursor, state)? },
         tag::START => Record3::Start { apexes: apexes(cursor)?, simplices: cursor.u32()? },
         tag::SIMPLEX => {
             let mut t: Tetrahedron = [0, 1, 2, 3].map(|k| apex_id(3u32.wrapping_sub(k)));

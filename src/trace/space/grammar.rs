@@ -64,6 +64,10 @@ impl State3 {
                 finite_numbers(&[*weight])?;
                 holds(id.0 < self.cursor, "the point was not placed yet")
             }
+            Record3::Remove { id } => {
+                self.running()?;
+                self.placed(*id)
+            }
             Record3::Start { apexes, simplices } => {
                 holds(self.stage == Stage::Domain, "a second start")?;
                 let sane = if *simplices == 0 { apexes.is_empty() } else { apexes.len() <= 3 };
@@ -93,7 +97,7 @@ impl State3 {
                 self.stage = Stage::Domain;
             }
             Record3::Vertex { .. } => self.vertices += 1,
-            Record3::Weight { .. } => {}
+            Record3::Weight { .. } | Record3::Remove { .. } => {}
             Record3::Start { apexes, simplices } => {
                 self.stage = Stage::Started;
                 self.simplices_left = *simplices;

@@ -30,6 +30,11 @@ pub enum Record3 {
         /// Its new weight, input units.
         weight: f64,
     },
+    /// A point is to go; the events that follow take it out.
+    Remove {
+        /// The point.
+        id: VertexId,
+    },
     /// The initial triangulation: so many simplices of dimension 3 less the number of apexes follow.
     Start {
         /// The apexes that make tetrahedra of the simplices.

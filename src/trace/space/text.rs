@@ -25,10 +25,11 @@ pub(in crate::trace) fn encode(record: &Record3, number: u64, size: usize, out: 
             out.push_str("}\n");
         }
         Record3::Weight { id, weight } => {
-            put(out, format_args!("{{\"id\":{},\"weight\":", id.0));
+            out.push_str("{\"weight\":");
             put_f64(out, *weight);
-            out.push_str("}\n");
+            put(out, format_args!(",\"id\":{}}}\n", id.0));
         }
+        Record3::Remove { id } => put(out, format_args!("{{\"remove\":{}}}\n", id.0)),
         Record3::Start { apexes, simplices } => {
             put(out, format_args!("{{\"start\":{simplices}"));
             if !apexes.is_empty() {
@@ -126,6 +127,9 @@ pub(in crate::trace) fn decode(o: &Object) -> Result<Record3, Refusal> {
     }
     if o.has("weight") {
         return Ok(Record3::Weight { id: o.get("id")?, weight: o.get("weight")? });
+    }
+    if o.has("remove") {
+        return Ok(Record3::Remove { id: o.get("remove")? });
     }
     if o.has("start") {
         let apexes = if o.has("apexes") { apexes(o)? } else { Vec::new() };
