@@ -265,11 +265,16 @@ fn piece<K: Kernel3>(points: &[WeightedPoint], part: &Part, all: &Surroundings) 
     ids.extend((0u32..).zip(points).filter(|(_, p)| halo(p.at)).map(|(id, _)| id));
     let local: Vec<WeightedPoint> = ids.iter().map(|&id| points[id as usize]).collect();
     let t = Regular3::<K>::build_alone(&local);
-    sort_cells(&t, &ids, part.own.len() as u32, |cell| t.keeps_inside(cell, low, high, all))
+    sort_cells(t, &ids, part.own.len() as u32, |t, cell| t.keeps_inside(cell, low, high, all))
 }
 
 /// Sorts the cells of a part's triangulation; its points have the given ids, the first `own` of them lie in its box.
-fn sort_cells<K: Kernel3>(t: &Regular3<K>, ids: &[u32], own: u32, sure: impl Fn(&Cell) -> bool) -> Piece {
+fn sort_cells<K: Kernel3>(
+    mut t: Regular3<K>,
+    ids: &[u32],
+    own: u32,
+    sure: impl Fn(&Regular3<K>, &Cell) -> bool,
+) -> Piece {
     let mut piece = Piece::default();
     let mut rank = vec![NONE; t.sites.len()];
     for place in FIRST..t.sites.len() as u32 {
@@ -288,27 +293,34 @@ fn sort_cells<K: Kernel3>(t: &Regular3<K>, ids: &[u32], own: u32, sure: impl Fn(
         piece.torn.extend(&piece.order);
     }
     let mut number = vec![NONE; t.cells.len()];
+    let mut inner = 0;
     for (c, cell) in t.cells.iter().enumerate().filter(|(_, c)| spans_space && !c.is_free()) {
         let inside = cell.v.iter().filter(|&&v| rank[v as usize] != NONE).count();
         if inside == 0 {
             continue;
         }
-        if cell.is_ghost() || !sure(cell) {
+        if cell.is_ghost() || !sure(&t, cell) {
             piece.torn.extend(cell.v.iter().filter(|&&v| v >= FIRST).map(|&v| id(v)));
         } else if inside == 4 {
-            number[c] = piece.inner.len() as u32;
-            piece.inner.push(*cell);
+            number[c] = inner;
+            inner += 1;
         } else {
             piece.mixed.push(cell.v.map(id));
         }
     }
-    for cell in &mut piece.inner {
-        cell.v = cell.v.map(|v| rank[v as usize]);
-        cell.n = cell.n.map(|link| match number[(link >> 2) as usize] {
-            NONE => NONE,
-            c => 4 * c | link & 3,
-        });
+    // The inner cells close up in place: memory for a second copy would be the peak of the build.
+    for c in 0..t.cells.len() {
+        if number[c] != NONE {
+            let Cell { v, n } = t.cells[c];
+            let link = |link: u32| match number[(link >> 2) as usize] {
+                NONE => NONE,
+                beyond => 4 * beyond | link & 3,
+            };
+            t.cells[number[c] as usize] = Cell { v: v.map(|v| rank[v as usize]), n: n.map(link) };
+        }
     }
+    t.cells.truncate(inner as usize);
+    piece.inner = t.cells;
     piece.torn.sort_unstable();
     piece.torn.dedup();
     piece
