@@ -141,6 +141,11 @@ impl Checker {
         self.space.as_ref().map(|space| space.triangulation())
     }
 
+    /// Whether no point of a trace of space waits for the event that places it or takes it out: `triangulation` is that of all points so far.
+    pub fn is_settled(&self) -> bool {
+        self.space.as_ref().is_none_or(|space| space.is_settled())
+    }
+
     /// What the replay has come to, for `snapshot`.
     pub(super) fn state(&self) -> State<'_> {
         let (mesh, segments) = match &self.replay {

@@ -171,6 +171,9 @@ pub struct VerifyArgs {
     /// Also check that the trace is of this input
     #[arg(long)]
     pub input: Option<PathBuf>,
+    /// Columns of the input
+    #[command(flatten)]
+    pub column: ColumnArgs,
     /// Prove the choices too: order, ties, parents, rounding
     #[arg(long)]
     pub strict: bool,

@@ -2,23 +2,26 @@
 
 use super::args::ReplayArgs;
 use super::files::{Staged, open};
-use super::outputs::{check_names, stage};
+use super::outputs::{check_names, stage, stage3};
 use super::{Answer, Failure, Status, talk};
 use crate::check::{Checker, Options, Verdict};
+use crate::io::ForeignMesh3;
 use crate::model::words::counted;
 use crate::model::{Mesh2, Pslg, VertexKind};
 use crate::trace::{Event, Reader, Record};
 
 /// Replays a trace on the checker's own complex, which proves each event on the way, and writes the mesh after event `--to`. Since a
-/// deletion only makes room for a split, a replay to a deletion goes on to its split. Exit code 1 if an event is not justified.
+/// deletion only makes room for a split, a replay to a deletion goes on to its split; in space one to a removal goes on until the points it set free are placed. Exit code 1 if an event is not justified.
 pub fn run(args: &ReplayArgs) -> Answer {
-    check_names(&args.output)?;
     let mut checker = Checker::new(Options { strict: false, digests: false });
     let mut domain = Pslg::default();
     let mut reached = false;
     let mut last = None;
     for record in Reader::new(open(&args.trace)?) {
         let record = record.map_err(|e| Failure::at(&args.trace, e))?;
+        if let Record::Header(_) = record {
+            check_names(&args.output)?;
+        }
         note(&record, &mut domain);
         if checker.push(&record).is_err() {
             if let Verdict::Rejected(r) = checker.finish() {
@@ -26,10 +29,11 @@ pub fn run(args: &ReplayArgs) -> Answer {
             }
             return Ok(Status::No);
         }
-        if let Record::Event(event) = &record {
+        if record.is_event() {
             let number = last.map_or(0, |n: u64| n + 1);
             last = Some(number);
-            reached = number >= args.to && !matches!(event, Event::Remove { .. });
+            let waits = matches!(record, Record::Event(Event::Remove { .. })) || !checker.is_settled();
+            reached = number >= args.to && !waits;
             if reached {
                 break;
             }
@@ -39,11 +43,21 @@ pub fn run(args: &ReplayArgs) -> Answer {
         let end = last.map_or("no event".to_string(), |n| format!("events 0 to {n}"));
         return Err(Failure::new(format_args!("--to {}: the trace has {end}", args.to)));
     }
-    let mesh = dressed(checker.mesh(), &domain);
     let mut staged = Staged::default();
+    let event = last.unwrap_or(args.to);
+    if let Some(t) = checker.triangulation() {
+        stage3(&args.output, &ForeignMesh3::from(&t), &mut staged)?;
+        staged.commit()?;
+        talk(format_args!(
+            "event {event}: {}, {}",
+            counted(t.points.len(), "point"),
+            counted(t.simplices().len(), "simplex")
+        ));
+        return Ok(Status::Well);
+    }
+    let mesh = dressed(checker.mesh(), &domain);
     stage(&args.output, &mesh, Some(&domain), &mut staged)?;
     staged.commit()?;
-    let event = last.unwrap_or(args.to);
     talk(format_args!(
         "event {event}: {}, {}",
         counted(mesh.points.len(), "vertex"),

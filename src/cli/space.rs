@@ -17,7 +17,7 @@ use crate::audit::space::{Claim, Options, Subject, audit};
 use crate::domain::{Severity, normalise3};
 use crate::io::{self, Column, ForeignMesh3, Format, point_dimension};
 use crate::model::words::counted;
-use crate::model::{PointSet3, PointState, Triangulation3, VertexId};
+use crate::model::{PointSet3, PointState, Triangulation3, VertexId, WeightedPoint};
 use crate::refine::RunError;
 use crate::refine::regular::{Certificate, triangulate3};
 use crate::trace::{self, Comparing, Reader, Record, Sink, Writer, triangulation_digest};
@@ -68,6 +68,16 @@ fn load(path: &Path, column: Option<&Column>) -> Result<Loaded, Failure> {
     }
     entries.sort_by_key(|e| e.severity);
     Ok(Loaded { set: input.set, entries })
+}
+
+/// The points of a file, to compare a trace with; `None` if they are refused, which is told.
+pub fn points(path: &Path, column: &ColumnArgs, json: bool) -> Result<Option<Vec<WeightedPoint>>, Failure> {
+    let Loaded { set, entries } = load(path, column.column().as_ref())?;
+    if refused(&entries) {
+        tell_refusal(&entries, path, json)?;
+        return Ok(None);
+    }
+    Ok(Some(set.weighted().collect()))
 }
 
 fn refused(entries: &[Entry]) -> bool {

@@ -3,11 +3,11 @@
 use super::args::VerifyArgs;
 use super::files::open;
 use super::input::load;
-use super::{Answer, Failure, Status, data, talk};
+use super::{Answer, Failure, Status, data, space, talk};
 use crate::check::spacing::{Count, Kind, Row, Spacing, Violation};
 use crate::check::{Checker, Options, Verdict};
 use crate::model::words::counted;
-use crate::model::{Fill, Pslg, Segment};
+use crate::model::{Fill, Pslg, Segment, WeightedPoint};
 use crate::trace::{DecodeError, Header, Reader, Record, Record3};
 use serde_json::json;
 use std::time::Instant;
@@ -25,13 +25,17 @@ pub fn run(args: &VerifyArgs) -> Answer {
     let begun = Instant::now();
     let input = match &args.input {
         None => None,
+        Some(path) if space::is_spatial(path)? => match space::points(path, &args.column, args.json)? {
+            Some(points) => Some(Input::Space(points)),
+            None => return Ok(Status::Refused),
+        },
         Some(path) => {
             let loaded = load(path, None)?;
             if loaded.refused() {
                 loaded.tell_refusal(path, args.json)?;
                 return Ok(Status::Refused);
             }
-            Some(loaded.prepared.pslg)
+            Some(Input::Plane(Box::new(loaded.prepared.pslg)))
         }
     };
     let mut reader = Reader::new(open(&args.trace)?);
@@ -40,6 +44,7 @@ pub fn run(args: &VerifyArgs) -> Answer {
         spacing: args.spacing.then(Spacing::new),
         input,
         stated: Pslg::default(),
+        stated3: Vec::new(),
     };
     let mut rejection = None;
     while let Some(record) = reader.next() {
@@ -76,9 +81,17 @@ pub fn run(args: &VerifyArgs) -> Answer {
 struct Judge {
     checker: Checker,
     spacing: Option<Spacing>,
-    input: Option<Pslg>,
+    input: Option<Input>,
     /// The domain that the trace states, kept only to be compared with an input.
     stated: Pslg,
+    /// Points of space as the trace states them, with their places in the input.
+    stated3: Vec<(u32, WeightedPoint)>,
+}
+
+/// What a trace is to be of.
+enum Input {
+    Plane(Box<Pslg>),
+    Space(Vec<WeightedPoint>),
 }
 
 impl Judge {
@@ -111,16 +124,25 @@ impl Judge {
             Record::Hole(hole) => self.stated.holes.push(*hole),
             Record::Region(region) => self.stated.regions.push(*region),
             Record::Start { .. } => {
-                if let Some(input) = self.input.take()
-                    && let Some(what) = difference(&input, &self.stated)
-                {
-                    return Err(Rejection {
-                        event: "input".into(),
-                        rule: "Input".into(),
-                        expected: format!("the {what} of the input"),
-                        found: "others".into(),
-                    });
-                }
+                let what = match self.input.take() {
+                    Some(Input::Plane(input)) => difference(&input, &self.stated),
+                    Some(Input::Space(_)) => Some("points"),
+                    None => None,
+                };
+                return what.map_or(Ok(()), |what| Err(other_input(what)));
+            }
+            Record::Space(Record3::Vertex { point, input }) => {
+                let place = input.unwrap_or(self.stated3.len() as u32);
+                self.stated3.push((place, *point));
+            }
+            Record::Space(Record3::End(_)) => {
+                self.stated3.sort_by_key(|s| s.0);
+                let same = match &self.input {
+                    Some(Input::Space(points)) => points.iter().eq(self.stated3.iter().map(|s| &s.1)),
+                    Some(Input::Plane(_)) => false,
+                    None => true,
+                };
+                return if same { Ok(()) } else { Err(other_input("points")) };
             }
             Record::Triangle(_) | Record::Event(_) | Record::End(_) | Record::Space(_) => {}
         }
@@ -176,6 +198,15 @@ impl Judge {
         }
         let open = !unchecked.is_empty() || undecided > 0;
         Ok(if args.strict && open { Status::No } else { Status::Well })
+    }
+}
+
+fn other_input(what: &str) -> Rejection {
+    Rejection {
+        event: "input".into(),
+        rule: "Input".into(),
+        expected: format!("the {what} of the input"),
+        found: "others".into(),
     }
 }
 

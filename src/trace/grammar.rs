@@ -43,6 +43,9 @@ impl State {
 
     /// The part of the trace that the next record belongs to: `header`, `input` or `start`; `end` after the last one; else `None`: an event is due, or the end.
     pub(super) fn part(&self) -> Option<&'static str> {
+        if !self.space.is_fresh() {
+            return self.space.part();
+        }
         match self.stage {
             Stage::Fresh => Some("header"),
             Stage::Vertices | Stage::Segments | Stage::Holes | Stage::Regions => Some("input"),

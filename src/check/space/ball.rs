@@ -5,7 +5,7 @@
 //! C = L(u) (v x w) + L(v) (w x u) + L(w) (u x v), a point x is nearer than the orthoball iff D L(x) - C.x > 0: `predicates`, with p as base. Roundings are as many as
 //! there; instead of sums of magnitudes, products of the largest ones bound them.
 
-use super::predicates::{Vector, certain, cross, dot, orient};
+use super::predicates::{Corners, Vector, certain, cross, dot, exact_side, orient};
 use crate::check::value::{Number, sign_of};
 use crate::model::{Point3, Sign, WeightedPoint};
 use crate::trace::Apex;
@@ -54,6 +54,13 @@ impl Ball {
         Ball { c, d, c_size: [lift * (y * z), lift * (z * x), lift * (x * y)], d_size: 6.0 * x * y * z }
     }
 
+    /// D L(q) - C.q.
+    #[inline]
+    fn value(&self, q: &Row) -> f64 {
+        let [x, y, z] = q.to;
+        q.lift * self.d - (x * self.c[0] + y * self.c[1] + z * self.c[2])
+    }
+
     /// Whether the tetrahedron is positively oriented, if that is certain.
     #[inline]
     pub fn orientation(&self) -> Option<Sign> {
@@ -64,10 +71,54 @@ impl Ball {
     #[inline]
     pub fn side(&self, q: &Row) -> Option<Sign> {
         let [x, y, z] = q.to;
-        let value = q.lift * self.d - (x * self.c[0] + y * self.c[1] + z * self.c[2]);
         let c = &self.c_size;
-        certain(value, q.size * self.d_size + (x.abs() * c[0] + y.abs() * c[1] + z.abs() * c[2]))
+        certain(self.value(q), q.size * self.d_size + (x.abs() * c[0] + y.abs() * c[1] + z.abs() * c[2]))
     }
+}
+
+/// The side of q against the orthoball of t, whose ball and rows were uncertain: by the same value where nothing in it was rounded, as on grids, else exactly.
+#[cold]
+pub fn near_side(ball: &Ball, t: &Corners, q: &WeightedPoint) -> Sign {
+    if !is_unrounded(t, q) {
+        return exact_side(t, q);
+    }
+    match ball.value(&Row::new(t[3], *q)) {
+        value if value > 0.0 => Sign::Positive,
+        value if value < 0.0 => Sign::Negative,
+        _ => Sign::Zero,
+    }
+}
+
+/// Whether all numbers seen from the last corner are exact, coordinates multiples of a power of two u below 2^9 u, and weights multiples of u^2 below
+/// 2^20 u^2. Then lifts are below 2^21 u^2, no sum in a ball's value exceeds 24 2^48 u^5 < 2^53 u^5, and all are multiples of u^5, u^4 or so: exact.
+fn is_unrounded(t: &Corners, q: &WeightedPoint) -> bool {
+    let p = t[3];
+    let others = [t[0], t[1], t[2], *q];
+    let (mut low, mut high, mut exact) = (i32::MAX, i32::MIN, true);
+    let mut weights = (i32::MAX, i32::MIN);
+    let mut note = |x: f64, y: f64, (low, high): (&mut i32, &mut i32)| {
+        let difference = x - y;
+        let part = x - difference;
+        // What the subtraction has lost (two-sum, Knuth).
+        exact &= (x - (difference + part)) + (part - y) == 0.0;
+        if difference != 0.0 {
+            let bits = difference.to_bits();
+            let exponent = (bits >> 52 & 0x7ff) as i32;
+            exact &= exponent != 0;
+            *low = (*low).min(exponent - 52 + (bits | 1 << 52).trailing_zeros() as i32);
+            *high = (*high).max(exponent);
+        }
+    };
+    for o in others {
+        note(o.at.x, p.at.x, (&mut low, &mut high));
+        note(o.at.y, p.at.y, (&mut low, &mut high));
+        note(o.at.z, p.at.z, (&mut low, &mut high));
+        note(o.weight, p.weight, (&mut weights.0, &mut weights.1));
+    }
+    // Exponents are biased by 1023.
+    let unit2 = 2 * (low - 1023) + 1023;
+    let light = weights.1 == i32::MIN || (weights.0 >= unit2 && weights.1 - unit2 < 20);
+    exact && low != i32::MAX && high - low < 9 && light
 }
 
 /// Whether c and e, in one plane with a and b, lie strictly on different sides of the line ab; a, b, c are not collinear.

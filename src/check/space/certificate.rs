@@ -11,10 +11,10 @@
 //! at each edge of its boundary it is convex (Tietze), and it holds all vertices: it is their hull. By (5) the lifted complex is convex at every facet, thus convex:
 //! the lower hull of the lifted vertices.
 
-use super::ball::{Ball, Row, across, side_from_middle};
+use super::ball::{Ball, Row, across, near_side, side_from_middle};
 use super::complex::{Complex, INFINITE};
 use super::glue::{BORDER, facet, glue};
-use super::predicates::{exact_side, in_conflict, orient, side, tie_in_conflict};
+use super::predicates::{in_conflict, orient, side, tie_in_conflict};
 use crate::check::verdict::{Checked, Rule, broken, ensure};
 use crate::model::Sign;
 
@@ -110,7 +110,7 @@ fn check_cells(mesh: &Complex, count: u32, ties: Ties) -> Checked {
                 continue;
             }
             let q = mesh.point(q);
-            let own = ball.side(&Row::new(t[3], q)).unwrap_or_else(|| exact_side(&t, &q));
+            let own = ball.side(&Row::new(t[3], q)).unwrap_or_else(|| near_side(&ball, &t, &q));
             let conflict = match (own, ties) {
                 (Sign::Zero, Ties::Broken) => tie_in_conflict(&t, &q),
                 (own, _) => own.is_positive(),

@@ -58,6 +58,11 @@ impl Checker3 {
         self.events
     }
 
+    /// Whether no point waits for an event.
+    pub fn is_settled(&self) -> bool {
+        self.replay.pending.is_none() && self.replay.points.free.is_empty()
+    }
+
     /// Whether the end was accepted.
     pub fn ended(&self) -> bool {
         self.stage == Stage::Ended

@@ -8,10 +8,10 @@
 //! destroyed facets of the hull for sum, which (3) makes disjoint from the old hull and each other. So with (1) everything is covered once. By (4) the new body is
 //! convex, by (5) the lifted complex is. A vertex of (6) is on no lower hull: from p through it one comes into the old one.
 
-use super::ball::{Ball, Row};
+use super::ball::{Ball, Row, near_side};
 use super::certificate::{Ties, check_convex};
 use super::complex::{Cell, Complex, FIRST, INFINITE, NONE, id};
-use super::predicates::{Corners, exact_side, in_conflict, orient, side, tie_in_conflict};
+use super::predicates::{Corners, in_conflict, orient, side, tie_in_conflict};
 use crate::check::verdict::{Checked, Rule, broken, ensure};
 use crate::model::{Sign, Tetrahedron, WeightedPoint};
 use crate::trace::Bits;
@@ -273,7 +273,7 @@ impl Cavity {
                     Some(r) if r.vertex == q => ball.side(&r.row),
                     _ => ball.side(&Row::new(p, mesh.point(q))),
                 };
-                let side_of_q = certain.unwrap_or_else(|| exact_side(&mesh.corners(side.cell), &mesh.point(q)));
+                let side_of_q = certain.unwrap_or_else(|| near_side(&ball, &mesh.corners(side.cell), &mesh.point(q)));
                 let conflict = match (side_of_q, ties) {
                     (Sign::Zero, Ties::Broken) => tie_in_conflict(&mesh.corners(side.cell), &mesh.point(q)),
                     (s, _) => s.is_positive(),

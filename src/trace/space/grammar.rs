@@ -34,6 +34,17 @@ impl State3 {
         self.stage == Stage::Fresh
     }
 
+    /// The part of the trace that the next record belongs to, if that is no event.
+    pub(in crate::trace) fn part(&self) -> Option<&'static str> {
+        match self.stage {
+            Stage::Fresh => Some("header"),
+            Stage::Domain => Some("input"),
+            Stage::Started if self.simplices_left > 0 => Some("start"),
+            Stage::Started => None,
+            Stage::Ended => Some("end"),
+        }
+    }
+
     pub(in crate::trace) fn ended(&self) -> bool {
         self.stage == Stage::Ended
     }
