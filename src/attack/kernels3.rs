@@ -85,6 +85,7 @@ impl KernelCase3 {
         all.extend([
             ("orthocenter_of_triangle", center.into()),
             ("dual_line_meets_plane", K::dual_line_meets_plane(t, d, self.normal).into()),
+            ("normal_side", K::normal_side([a, b, c], [b, d, e]).into()),
         ]);
         if center != Err(ConstructionError::Degenerate) {
             all.extend([
@@ -214,7 +215,7 @@ fn place(draw: &mut impl Draw, before: &[WeightedPoint]) -> Point3 {
 }
 
 /// A weight as the contract wants it: 0, or of magnitude 2^-284 to 2^400; no -0.
-fn fitted_weight(w: f64) -> f64 {
+pub(super) fn fitted_weight(w: f64) -> f64 {
     let (least, greatest) = (scale::by_power_of_two(1.0, -284), scale::by_power_of_two(1.0, 400));
     if w.abs() >= least { w.clamp(-greatest, greatest) } else { 0.0 }
 }

@@ -7,6 +7,7 @@
 //! - `KernelCase`: every method of the fast kernel gives the bits of the exact one.
 //! - `KernelCase3`: the same in space.
 //! - `CdtCase`: a triangulation under insertions, splits, deletions and rollbacks equals a fresh build and the definition.
+//! - `EditCase3`: a regular triangulation of space under insertions, removals and changes of weight, likewise; and on both kernels.
 //! - `GcdrCase`: both kernels write the same trace, the strict checker accepts it, both forms of it read back.
 //! - `MutatedTraceCase`: of a true trace with one record changed, or with bytes changed, the strict checker accepts none.
 //! - `MutatedTrace3Case`: the same in space.
@@ -17,6 +18,7 @@
 mod answer;
 mod audits;
 mod cdt;
+mod edits3;
 mod kernels;
 mod kernels3;
 mod mutations;
@@ -28,6 +30,7 @@ mod users;
 
 pub use audits::MutatedMeshCase;
 pub use cdt::{CdtCase, Step as CdtStep};
+pub use edits3::{EditCase3, Image as Image3, by_definition as regular_by_definition};
 pub use kernels::KernelCase;
 pub use kernels3::KernelCase3;
 pub use mutations::MutatedTraceCase;

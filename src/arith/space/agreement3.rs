@@ -259,6 +259,7 @@ impl Case {
         let mut say = |name, answer| all.push(name, answer);
         let center = K::orthocenter_of_triangle(t);
         say("orthocenter_of_triangle", maybe_point(center));
+        say("normal_side", format!("{:?}", K::normal_side([a, b, c], [d, b, e])));
         say("dual_line_meets_plane", maybe_point(K::dual_line_meets_plane(t, d, self.direction)));
         if center != Err(ConstructionError::Degenerate) {
             say("power_side_of_triangle", format!("{:?}", K::power_side_of_triangle(t, s)));
@@ -364,6 +365,7 @@ fn every_stage_is_reached(all: &Shares) {
         ("compare_radius_edge_of_triangle", &[0, 1]),
         ("compare_radius_edge_of_triangle of a tie", &[1, 2]),
         ("orthocenter_side", &[0, 1, 2]),
+        ("normal_side", &[0, 1]),
         ("at_fraction3", &[2]),
         ("orthocenter", &[2]),
         ("orthocenter_of_triangle", &[2]),

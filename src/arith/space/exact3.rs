@@ -278,6 +278,13 @@ impl Kernel3 for ExactKernel {
         orthocenter(&t.map(Weighted::from)).map_or(Sign::Zero, |o| sign(orientation([&a, &b, &c, &o]).cmp0()))
     }
 
+    fn normal_side(t: [Point3; 3], plane: [Point3; 3]) -> Sign {
+        // (u x v).(w x z) = (u.w)(v.z) - (u.z)(v.w) (Binet, Cauchy).
+        let edges = |[a, b, c]: [Exact3; 3]| [b.minus(&a).0, c.minus(&a).0];
+        let ([u, v], [w, z]) = (edges(t.map(Exact3::from)), edges(plane.map(Exact3::from)));
+        sign((dot(&u, &w) * dot(&v, &z)).cmp(&(dot(&u, &z) * dot(&v, &w))))
+    }
+
     fn midpoint3(a: Point3, b: Point3) -> Point3 {
         Self::at_fraction3(a, b, 0.5)
     }

@@ -161,6 +161,10 @@ impl Kernel3 for FastKernel {
         sign_of!(poly3::orthocenter_side(t, plane))
     }
 
+    fn normal_side(t: [Point3; 3], plane: [Point3; 3]) -> Sign {
+        sign_of!(poly3::normal_side(t, plane))
+    }
+
     #[inline]
     fn midpoint3(a: Point3, b: Point3) -> Point3 {
         // The sum is rounded once and halving is exact.

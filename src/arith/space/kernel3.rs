@@ -79,6 +79,10 @@ pub trait Kernel3: Kernel {
     /// Side of the orthocenter of t seen from the oriented plane abc: the sign of orient3d(a, b, c, o).
     fn orthocenter_side(t: WeightedCorners, plane: [Point3; 3]) -> Sign;
 
+    /// Side of the oriented plane abc to which the normal of the oriented triangle t points: the sign of
+    /// (t1 - t0) x (t2 - t0) . (b - a) x (c - a). Zero if it is parallel to the plane.
+    fn normal_side(t: [Point3; 3], plane: [Point3; 3]) -> Sign;
+
     // Constructions. Each coordinate is the exact value rounded once; then the range rule.
 
     /// Midpoint of ab.

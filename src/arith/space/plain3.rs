@@ -76,6 +76,9 @@ impl Kernel3 for PlainKernel {
     fn orthocenter_side(t: WeightedCorners, plane: [Point3; 3]) -> Sign {
         FastKernel::orthocenter_side(t, plane)
     }
+    fn normal_side(t: [Point3; 3], plane: [Point3; 3]) -> Sign {
+        FastKernel::normal_side(t, plane)
+    }
 
     fn midpoint3(a: Point3, b: Point3) -> Point3 {
         // a + (b - a)/2 rounds twice; (a + b)/2 would be right.

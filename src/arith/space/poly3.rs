@@ -236,6 +236,13 @@ pub(super) fn orthocenter_side<R: Ring>(t: WeightedCorners, [a, b, c]: [Point3; 
     normal.dot(&Vector3::between(a, t[0].at)).times(&den).plus(&normal.dot(&offset))
 }
 
+/// (t1 - t0) x (t2 - t0) . (b - a) x (c - a).
+#[inline]
+pub(super) fn normal_side<R: Ring>(t: [Point3; 3], plane: [Point3; 3]) -> R {
+    let normal = |[a, b, c]: [Point3; 3]| Vector3::<R>::between(a, b).cross(&Vector3::between(a, c));
+    normal(t).dot(&normal(plane))
+}
+
 /// t (b - a), about a.
 #[inline]
 pub(super) fn at_fraction<R: Ring>(a: Point3, b: Point3, t: f64) -> Vector3<R> {

@@ -55,7 +55,7 @@ impl<K: Kernel3> Regular3<K> {
             self.raise(next, apex, side);
             next += 1;
         }
-        let mut s = std::mem::take(&mut self.scratch);
+        let mut s = self.scratch.take().unwrap_or_default();
         self.reserve_numbers(&mut s);
         for place in next..end {
             let q = self.site(place);
@@ -68,7 +68,7 @@ impl<K: Kernel3> Regular3<K> {
                 Meeting::Hidden(_) => {}
             }
         }
-        self.scratch = s;
+        self.scratch = Some(s);
     }
 
     /// Sets all hints and lets the hidden points lodge.

@@ -83,7 +83,7 @@ impl<K: Kernel3> Regular3<K> {
 
     /// Replaces the conflict zone of a place by its star. Vertices strictly inside the zone become hidden.
     fn replace_zone(&mut self, place: u32, root: u32, change: &mut Change) {
-        let mut s = std::mem::take(&mut self.scratch);
+        let mut s = self.scratch.take().unwrap_or_default();
         self.reserve_numbers(&mut s);
         self.flood(root, self.site(place), &mut s);
         change.destroyed.extend(s.zone.iter().map(|&c| self.named(&self.cells[c as usize])));
@@ -93,11 +93,11 @@ impl<K: Kernel3> Regular3<K> {
                 homeless.extend(self.evict(c));
             }
         }
-        let hidden = self.swallowed(&s);
+        let hidden = self.swallowed(&mut s);
         self.last = self.star(place, &mut s);
         self.set_hints(&s);
         change.created.extend(s.zone.iter().map(|&c| CellId(c)));
-        self.scratch = s;
+        self.scratch = Some(s);
         change.hidden.extend(hidden.iter().map(|&v| VertexId(self.ids[v as usize])));
         change.hidden.sort_unstable();
         for v in hidden.into_iter().chain(homeless) {
@@ -105,14 +105,22 @@ impl<K: Kernel3> Regular3<K> {
         }
     }
 
-    /// The vertices of the zone that are not on its boundary.
-    fn swallowed(&self, s: &Scratch) -> Vec<u32> {
-        // V - E + F = 2 counts the vertices on the boundary; a zone without others has a cell less than three in V plus its inner edges, so only
-        // sorting tells.
-        let mut on_rim: Vec<u32> = s.rim.iter().flat_map(|f| f.v).collect();
-        on_rim.sort_unstable();
-        let inner = s.zone.iter().flat_map(|&c| self.cells[c as usize].v).filter(|v| on_rim.binary_search(v).is_err());
-        let mut inner: Vec<u32> = inner.collect();
+    /// The vertices of the zone that are not on its boundary. Without weights there are none.
+    fn swallowed(&self, s: &mut Scratch) -> Vec<u32> {
+        if !self.has_weights {
+            return Vec::new();
+        }
+        let on_rim = || s.rim.iter().flat_map(|f| f.v);
+        let in_zone = || s.zone.iter().flat_map(|&c| self.cells[c as usize].v);
+        // The star takes the numbers over.
+        let numbers = &mut s.numbers;
+        let mut inner: Vec<u32> = if on_rim().all(|v| numbers.of(v).is_some()) {
+            in_zone().filter(|&v| !numbers.has(v)).collect()
+        } else {
+            let mut on_rim: Vec<u32> = on_rim().collect();
+            on_rim.sort_unstable();
+            in_zone().filter(|v| on_rim.binary_search(v).is_err()).collect()
+        };
         inner.sort_unstable();
         inner.dedup();
         debug_assert!(inner.iter().all(|&v| v >= FIRST && self.status[v as usize] == Status::Vertex));

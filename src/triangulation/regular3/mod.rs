@@ -32,10 +32,12 @@
 
 mod build;
 mod conflict;
+mod dual;
 mod fill;
 mod insert;
 mod locate;
 mod lodge;
+mod numbers;
 mod raise;
 mod remove;
 mod report;
@@ -47,5 +49,6 @@ mod tests;
 mod threads;
 mod validate;
 
+pub use dual::{DualEdge, Orthocenter};
 pub use store::{CellId, Change, INFINITE, Regular3, apex, is_apex};
 pub use validate::Violation;

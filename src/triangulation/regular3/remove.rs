@@ -85,6 +85,7 @@ impl<K: Kernel3> Regular3<K> {
         if self.status[place] == Status::Removed {
             // -0 would not be equal to 0 as a key.
             self.sites[place].0.weight = weight + 0.0;
+            self.take_note_of(self.sites[place].0);
         }
     }
 

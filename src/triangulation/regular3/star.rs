@@ -16,8 +16,12 @@
 //! The table is square over numbers that the boundary's vertices get on the spot (15 on average). A boundary with more vertices than it
 //! has rows is glued by sorting its edges.
 
-use super::store::{Cell, FIRST, INF, NONE, Regular3};
+use super::numbers::Numbers;
+use super::store::{Cell, INF, NONE, Regular3};
 use crate::arith::space::Kernel3;
+
+/// How many vertices the table has rows for.
+const ROWS: usize = 64;
 
 /// A facet of the boundary of a conflict zone.
 #[derive(Clone, Copy, Debug)]
@@ -27,9 +31,6 @@ pub(super) struct Rim {
     /// The cell outside, as a link.
     pub(super) outer: u32,
 }
-
-/// How many vertices the table has rows for.
-const ROWS: usize = 64;
 
 /// Work lists kept for reuse.
 #[derive(Clone, Debug)]
@@ -44,41 +45,11 @@ pub(super) struct Scratch {
     pub(super) candidates: Vec<u32>,
     /// Candidates that need a closer look, and whether the point is known to lie exactly on their sphere.
     pub(super) undecided: Vec<(u32, bool)>,
-    numbers: Numbers,
+    pub(super) numbers: Numbers,
     /// Per pair of vertex numbers the link of the cell over the edge that leads from one to the other.
     table: Box<[u32; ROWS * ROWS]>,
     /// The numbers of the vertices of each facet.
     corners: Vec<[u8; 3]>,
-}
-
-/// Small numbers for the vertices of a boundary.
-#[derive(Clone, Debug)]
-struct Numbers {
-    /// Per place a number, which is that of the vertex only if the vertex is at home there.
-    number: Vec<u8>,
-    home: [u32; ROWS],
-    count: usize,
-}
-
-impl Numbers {
-    fn clear(&mut self) {
-        self.home[..self.count].fill(NONE);
-        self.count = 0;
-    }
-
-    /// The number of the vertex; `None` when there are too many.
-    #[inline(always)]
-    fn of(&mut self, v: u32) -> Option<usize> {
-        let known = usize::from(self.number[v as usize]) % ROWS;
-        if self.home[known] == v {
-            return Some(known);
-        }
-        let fresh = self.count;
-        *self.home.get_mut(fresh)? = v;
-        self.number[v as usize] = fresh as u8;
-        self.count += 1;
-        Some(fresh)
-    }
 }
 
 impl Default for Scratch {
@@ -89,7 +60,7 @@ impl Default for Scratch {
             has_ghosts: false,
             candidates: Vec::new(),
             undecided: Vec::new(),
-            numbers: Numbers { number: vec![0; FIRST as usize], home: [NONE; ROWS], count: 0 },
+            numbers: Numbers::default(),
             table: Box::new([0; ROWS * ROWS]),
             corners: Vec::new(),
         }
@@ -112,7 +83,7 @@ pub(super) fn turned(cell: Cell, turn: u32) -> Cell {
 impl<K: Kernel3> Regular3<K> {
     /// Makes room for numbers of all places up to now.
     pub(super) fn reserve_numbers(&self, s: &mut Scratch) {
-        s.numbers.number.resize(self.sites.len(), 0);
+        s.numbers.reserve(self.sites.len());
     }
 
     /// Replaces the conflict zone by the star of place p; returns a finite cell of it.
@@ -152,6 +123,9 @@ impl<K: Kernel3> Regular3<K> {
             let outer = (facet.outer >> 2) as usize;
             self.cells[outer].n[(facet.outer & 3) as usize] = 4 * t + (3 ^ turn);
             self.marks[outer] = 0;
+        }
+        if numbers.vertices().len() > ROWS {
+            return None;
         }
         for ((facet, &t), corners) in rim.iter().zip(zone.iter()).zip(corners.iter()) {
             let [a, b, c] = corners.map(usize::from);

@@ -116,12 +116,15 @@ pub struct Regular3<K: Kernel3> {
     pub(super) unit: f64,
     /// Below this squared distance determinants of such numbers are exact in f64s: (1024 unit)^2.
     pub(super) exact_below: f64,
+    /// Whether any point has, or had, a weight other than 0.
+    pub(super) has_weights: bool,
     /// Where the next search starts: a live cell, if there is one.
     pub(super) last: u32,
     pub(super) lodgers: super::lodge::Lodgers,
     /// Per place that stands for others, their places.
     pub(super) twins: BTreeMap<u32, Vec<u32>>,
-    pub(super) scratch: super::star::Scratch,
+    /// `None` before first use, and while in use.
+    pub(super) scratch: Option<Box<super::star::Scratch>>,
     pub(super) kernel: PhantomData<K>,
 }
 
@@ -160,10 +163,11 @@ impl<K: Kernel3> Regular3<K> {
             dimension: None,
             unit: 1.0,
             exact_below: 1024.0 * 1024.0,
+            has_weights: false,
             last: NONE,
             lodgers: Default::default(),
             twins: BTreeMap::new(),
-            scratch: Default::default(),
+            scratch: None,
             kernel: PhantomData,
         }
     }
@@ -268,7 +272,7 @@ impl<K: Kernel3> Regular3<K> {
         let place = self.sites.len() as u32;
         // -0 would not be equal to 0 in the order of points.
         let p = WeightedPoint { at: p.at + crate::model::Point3::ZERO, weight: p.weight + 0.0 };
-        self.refine_unit(p);
+        self.take_note_of(p);
         self.sites.push(Site(p));
         self.ids.push(id);
         self.status.push(Status::Vertex);
@@ -276,9 +280,12 @@ impl<K: Kernel3> Regular3<K> {
         place
     }
 
-    /// Makes the coordinates of p multiples of the unit, and its weight one of the square, unless that takes a unit too small to be of use.
+    /// Keeps true what is said of all points, that is `unit` and `has_weights`: a new point, or one with a new weight.
+    ///
+    /// The coordinates of p become multiples of the unit, its weight one of the square, unless that takes a unit too small to be of use.
     #[inline]
-    fn refine_unit(&mut self, p: WeightedPoint) {
+    pub(super) fn take_note_of(&mut self, p: WeightedPoint) {
+        self.has_weights |= p.weight != 0.0;
         const SMALLEST: f64 = 1.0 / (1u64 << 40) as f64;
         let fits = |x: f64, unit: f64| (x / unit) as i64 as f64 == x / unit;
         while self.exact_below > 0.0

@@ -1,10 +1,10 @@
-//! The triangulation against its definition, and against itself in other orders.
+//! The triangulation against itself in other orders. `attack::EditCase3` has it against its definition.
 
 use super::store::{FACET, INF, NONE, Regular3};
 use super::*;
 use crate::arith::FastKernel as K;
 use crate::arith::space::Kernel3;
-use crate::model::{Point3, PointState, Sign, VertexId, WeightedPoint, canonical_tetrahedron};
+use crate::model::{Point3, PointState, VertexId, WeightedPoint, canonical_tetrahedron};
 
 type T = Regular3<K>;
 
@@ -77,75 +77,6 @@ pub(super) fn weighted(points: Vec<Point3>, kind: u32, draw: &mut Draw) -> Vec<W
     points.into_iter().map(|at| WeightedPoint { at, weight: weight() }).collect()
 }
 
-/// States and simplices by definition: a simplex is a cell if no point is in conflict with it. Apexes of the test's own make a tetrahedron of it
-/// where points span less than space.
-fn by_definition(points: &[WeightedPoint]) -> (Vec<PointState>, Vec<VertexId>) {
-    let twin = |i: usize| (0..i).find(|&j| points[j] == points[i]);
-    let covered = |i: usize| points.iter().any(|p| p.at == points[i].at && p.weight > points[i].weight);
-    let live: Vec<usize> = (0..points.len()).filter(|&i| twin(i).is_none() && !covered(i)).collect();
-    let mut all: Vec<WeightedPoint> = live.iter().map(|&i| points[i]).collect();
-    let m = all.len();
-    let extra = [[3.1, 0.3, 0.2], [-0.7, 5.3, 0.4], [0.6, -0.9, 7.7]];
-    let mut sites: Vec<Point3> = all.iter().map(|p| p.at).collect();
-    let mut used = 0;
-    while m > 0 && !spans(&sites) {
-        used += 1;
-        all.truncate(m);
-        all.extend(extra[..used].iter().map(|&[x, y, z]| WeightedPoint::unweighted(Point3::new(x, y, z))));
-        sites = all.iter().map(|p| p.at).collect();
-    }
-    let mut simplices = Vec::new();
-    for_subsets(all.len(), 4, &mut Vec::new(), &mut |s| {
-        if (m..all.len()).any(|k| !s.contains(&k)) {
-            return;
-        }
-        let mut t = [s[0], s[1], s[2], s[3]];
-        let [a, b, c, d] = t.map(|i| all[i].at);
-        match K::orient3d(a, b, c, d) {
-            Sign::Zero => return,
-            Sign::Negative => t.swap(2, 3),
-            Sign::Positive => {}
-        }
-        let corners = t.map(|i| all[i]);
-        if (0..m).all(|q| t.contains(&q) || !K::in_conflict3(corners, all[q])) {
-            let mut ids: Vec<VertexId> = t.iter().filter(|&&i| i < m).map(|&i| VertexId(live[i] as u32)).collect();
-            if let [a, b, c, d] = ids[..] {
-                ids = canonical_tetrahedron([a, b, c, d]).to_vec();
-            } else {
-                ids.sort_unstable();
-            }
-            simplices.push(ids);
-        }
-    });
-    simplices.sort_unstable();
-    let simplices: Vec<VertexId> = simplices.into_iter().flatten().collect();
-    let state = |i: usize| match twin(i) {
-        Some(j) => PointState::Duplicate { of: VertexId(j as u32) },
-        None if simplices.contains(&VertexId(i as u32)) => PointState::Vertex,
-        None => PointState::Hidden,
-    };
-    ((0..points.len()).map(state).collect(), simplices)
-}
-
-fn spans(sites: &[Point3]) -> bool {
-    let mut found = false;
-    for_subsets(sites.len(), 4, &mut Vec::new(), &mut |s| {
-        found |= K::orient3d(sites[s[0]], sites[s[1]], sites[s[2]], sites[s[3]]) != Sign::Zero;
-    });
-    found
-}
-
-fn for_subsets(n: usize, k: usize, chosen: &mut Vec<usize>, visit: &mut dyn FnMut(&[usize])) {
-    if chosen.len() == k {
-        return visit(chosen);
-    }
-    for i in chosen.last().map_or(0, |&i| i + 1)..n {
-        chosen.push(i);
-        for_subsets(n, k, chosen, visit);
-        chosen.pop();
-    }
-}
-
 /// The invariants of the module head, by a plain reading.
 pub(super) fn assert_sound(t: &T) {
     let mut vertices = std::collections::BTreeSet::new();
@@ -205,33 +136,6 @@ fn inserted(points: &[WeightedPoint]) -> T {
         t.insert(p, &mut change);
     }
     t
-}
-
-fn assert_by_definition(points: &[WeightedPoint], name: &str) {
-    let (states, simplices) = by_definition(points);
-    for (t, how) in [(T::build(points, 1), "built"), (inserted(points), "inserted")] {
-        assert_sound(&t);
-        let found = t.to_triangulation();
-        assert_eq!(found.states, states, "{name}, {how}");
-        assert_eq!(found.simplices, simplices, "{name}, {how}");
-        let dimension = (found.simplex_size() > 0).then(|| found.simplex_size() as u8 - 1);
-        assert_eq!(t.dimension(), dimension);
-    }
-}
-
-#[test]
-fn it_is_what_the_definition_says() {
-    for kind in 0..FAMILIES {
-        for weights in 0..3 {
-            for seed in 0..40 {
-                let mut draw = Draw(u64::from(seed * 1000 + kind * 10 + weights));
-                let n = draw.below(14) as usize;
-                let points = family(kind, n, &mut draw);
-                let points = weighted(points, weights, &mut draw);
-                assert_by_definition(&points, &format!("family {kind}, weights {weights}, seed {seed}"));
-            }
-        }
-    }
 }
 
 /// The control of the published rule: agreeing on it means agreeing on all grids.

@@ -85,11 +85,9 @@ impl<K: Kernel3> Regular3<K> {
         let mut t = Self::with_capacity(points.len());
         t.places.resize(points.len(), NONE);
         t.dimension = Some(3);
-        let mut place = FIRST;
-        for &id in pieces.iter().flat_map(|p| &p.order) {
+        for (place, &id) in (FIRST..).zip(pieces.iter().flat_map(|p| &p.order)) {
             t.add_site(points[id as usize], id);
             t.places[id as usize] = place;
-            place += 1;
         }
         for [twin, of] in pieces.iter().flat_map(|p| &p.twins) {
             let (twin, of) = (t.places[*twin as usize], t.places[*of as usize]);
@@ -314,7 +312,7 @@ fn sort_cells<K: Kernel3>(
             let Cell { v, n } = t.cells[c];
             let link = |link: u32| match number[(link >> 2) as usize] {
                 NONE => NONE,
-                beyond => 4 * beyond | link & 3,
+                beyond => 4 * beyond + (link & 3),
             };
             t.cells[number[c] as usize] = Cell { v: v.map(|v| rank[v as usize]), n: n.map(link) };
         }
