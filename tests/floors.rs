@@ -116,7 +116,10 @@ const WORDS: &[Words] = &[
         words: &["Instant", "SystemTime", "thread", "rayon"],
         calls: false,
         except_folders: &["cli"],
-        except_files: &[("triangulation/regular3/threads.rs", "what the threads build is unique, whichever ends first")],
+        except_files: &[(
+            "triangulation/regular3/threads.rs",
+            "what the threads build is unique, whichever ends first",
+        )],
         reason: "no clock and no scheduler reaches a decision; budgets in seconds are the command line's",
     },
     Words {
