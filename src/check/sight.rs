@@ -86,7 +86,12 @@ pub struct Search {
     /// Vertices found by `vertices_in`, each once, in no particular order.
     pub found: Vec<u32>,
     vertex_stamp: Vec<u32>,
+    /// Where vertices have seen the subsegment whose disks were searched last, the latest first.
+    seen_at: Vec<Point2>,
 }
+
+/// How many places seen are asked for again.
+const MOST_PLACES: usize = 8;
 
 /// What a vertex must see of a subsegment.
 #[derive(Clone, Copy, Debug)]
@@ -131,13 +136,34 @@ impl Search {
 
     /// Whether w sees what is aimed at on the subsegment s (a half-edge, seen from inside): the open cone from w to the ends of s,
     /// clipped by every unconstrained edge crossed, is not empty (and holds the point strictly).
+    ///
+    /// A vertex that sees a point of s sees its interior. One look for a point follows a single way, so the places where others saw s are tried first.
     pub fn sees(&mut self, mesh: &Complex, w: u32, s: u32, aim: Aim) -> bool {
+        let Aim::Interior = aim else {
+            return self.look(mesh, w, s, aim).is_some();
+        };
+        for k in 0..self.seen_at.len() {
+            if self.look(mesh, w, s, Aim::At(self.seen_at[k])).is_some() {
+                self.seen_at[..=k].rotate_right(1);
+                return true;
+            }
+        }
+        let Some(gap) = self.look(mesh, w, s, aim) else {
+            return false;
+        };
+        self.seen_at.truncate(MOST_PLACES - 1);
+        self.seen_at.insert(0, middle(mesh, w, s, &gap));
+        true
+    }
+
+    /// The first gap found through which w sees what is aimed at.
+    fn look(&mut self, mesh: &Complex, w: u32, s: u32, aim: Aim) -> Option<Gap> {
         let eye = mesh.at(w);
         let (mut right, mut left) = (mesh.at(mesh.origin(s)), mesh.at(mesh.target(s)));
         match orient(eye, right, left) {
             Sign::Positive => {}
             Sign::Negative => std::mem::swap(&mut right, &mut left),
-            Sign::Zero => return false,
+            Sign::Zero => return None,
         }
         let twin = mesh.beyond(s);
         let holds = |gap: &Gap| match aim {
@@ -151,11 +177,11 @@ impl Search {
         }
         // A ray from the eye meets every triangle at most once, so this ends.
         while let Some(gap) = self.gaps.pop() {
-            if gap.through == s || gap.through == twin {
-                if holds(&gap) {
-                    return true;
-                }
+            if !holds(&gap) {
                 continue;
+            }
+            if gap.through == s || gap.through == twin {
+                return Some(gap);
             }
             if mesh.segment(gap.through) != NONE {
                 continue;
@@ -168,7 +194,7 @@ impl Search {
                 self.gaps.extend(clipped(mesh, eye, Gap { through, ..gap }));
             }
         }
-        false
+        None
     }
 
     /// Collects in `found` the vertices strictly in one of the disks with the given diameters, reached from s (both sides) across
@@ -176,6 +202,7 @@ impl Search {
     pub fn vertices_in(&mut self, mesh: &Complex, s: u32, diameters: &[[Point2; 2]], crosses: Crossing) {
         self.fresh(mesh);
         self.found.clear();
+        self.seen_at.clear();
         self.edges.clear();
         for e in [s, mesh.beyond(s)] {
             if e != NONE && (crosses == Crossing::All || mesh.inside(e).is_some()) && self.mark(triangle_of(e)) {
@@ -203,6 +230,14 @@ impl Search {
             }
         }
     }
+}
+
+/// About where the middle of a gap meets the line of s.
+fn middle(mesh: &Complex, w: u32, s: u32, gap: &Gap) -> Point2 {
+    let (eye, a, b) = (mesh.at(w), mesh.at(mesh.origin(s)), mesh.at(mesh.target(s)));
+    let way = (gap.right - eye).normalize_or_zero() + (gap.left - eye).normalize_or_zero();
+    let place = eye + way * ((a - eye).perp_dot(b - a) / way.perp_dot(b - a));
+    if place.is_finite() { place.clamp(a.min(b), a.max(b)) } else { a }
 }
 
 /// The part of a gap's cone that passes through its edge; `None` if empty. Both cones are narrower than a half-plane.

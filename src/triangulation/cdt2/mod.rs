@@ -26,6 +26,8 @@ pub use carve::{CarveError, Seed};
 pub use locate::Location;
 pub use store::{Cdt2, Change, HalfEdge, TriId};
 pub use validate::Violation;
+#[cfg(test)]
+pub use visible::CONES;
 pub use visible::{Target, Walk};
 
 use crate::model::{SegmentId, VertexId};

@@ -25,6 +25,12 @@ pub enum Target {
     Point(Point2),
 }
 
+#[cfg(test)]
+thread_local! {
+    /// Cones sent through a triangle by `sees`: its work.
+    pub static CONES: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
+}
+
 /// An open cone of sight at a vertex that has got as far as `edge` (from its near side): all rays strictly between.
 struct Cone {
     right: Point2,
@@ -76,17 +82,18 @@ impl<K: Kernel> Cdt2<K> {
             && K::walk_side(from, a, self.point(self.destination(e))).is_positive()
     }
 
-    /// Whether vertex w sees the target on the subsegment uv.
+    /// Where vertex w sees the target on the subsegment uv: the point itself, or about there; `None` if it does not.
     ///
-    /// The open cone from w to uv is sent through the triangles and clipped by every edge it crosses.
-    pub fn sees(&self, w: VertexId, [u, v]: [VertexId; 2], target: Target) -> bool {
+    /// The open cone from w to uv is sent through the triangles and clipped by every edge it crosses. Of a point only the part that holds it is followed:
+    /// one walk. Of the interior all parts are, which takes long where much lies between; w sees the interior wherever it sees a point.
+    pub fn sees(&self, w: VertexId, [u, v]: [VertexId; 2], target: Target) -> Option<Point2> {
         let (at, pu, pv) = (self.point(w), self.point(u), self.point(v));
         let (goal, right, left) = match K::orient2d(pu, pv, at) {
             Sign::Positive => (self.find_edge(u, v), pu, pv),
             Sign::Negative => (self.find_edge(v, u), pv, pu),
-            Sign::Zero => return false,
+            Sign::Zero => return None,
         };
-        let Some(goal) = goal else { return false };
+        let goal = goal?;
         let mut cones: Vec<Cone> = Vec::new();
         for out in self.edges_around(w) {
             let edge = self.next(out);
@@ -102,16 +109,18 @@ impl<K: Kernel> Cdt2<K> {
             cones.push(Cone { right, left, edge });
         }
         while let Some(Cone { right, left, edge }) = cones.pop() {
+            #[cfg(test)]
+            CONES.set(CONES.get() + 1);
+            if let Target::Point(p) = target
+                && !(K::orient2d(at, right, p).is_positive() && K::orient2d(at, p, left).is_positive())
+            {
+                continue;
+            }
             if edge == goal {
-                match target {
-                    Target::Interior => return true,
-                    Target::Point(p) => {
-                        if K::orient2d(at, right, p).is_positive() && K::orient2d(at, p, left).is_positive() {
-                            return true;
-                        }
-                        continue;
-                    }
-                }
+                return Some(match target {
+                    Target::Interior => middle(at, [right, left], [pu, pv]),
+                    Target::Point(p) => p,
+                });
             }
             if self.segment(edge).is_some() {
                 continue;
@@ -129,8 +138,16 @@ impl<K: Kernel> Cdt2<K> {
                 cones.push(Cone { right, left, edge: self.prev(entry) });
             }
         }
-        false
+        None
     }
+}
+
+/// About where the middle of a cone meets the line of uv.
+fn middle(at: Point2, cone: [Point2; 2], [u, v]: [Point2; 2]) -> Point2 {
+    let [right, left] = cone.map(|q| (q - at).normalize_or_zero());
+    let (way, along) = (right + left, v - u);
+    let q = at + way * ((u - at).perp_dot(along) / way.perp_dot(along));
+    if q.is_finite() { q.clamp(u.min(v), u.max(v)) } else { u }
 }
 
 /// Whether the direction of x from `at` lies in the half-open cone [a, b), narrower than a half turn.
