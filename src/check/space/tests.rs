@@ -13,11 +13,11 @@ impl Lcg {
         (self.0 >> 33) % n
     }
 
-    /// A place on a grid of 1/8, perhaps off it by multiples of a tiny step, perhaps with a weight.
+    /// A place on a grid of three by three by three, perhaps off it by multiples of a tiny step, perhaps with a weight.
     fn point(&mut self, step: f64, weighted: bool) -> WeightedPoint {
-        let mut coordinate = || self.below(8) as f64 / 8.0 + step * self.below(64) as f64;
+        let mut coordinate = || self.below(3) as f64 / 8.0 + step * self.below(64) as f64;
         let at = Point3::new(coordinate(), coordinate(), coordinate());
-        let weight = if weighted { self.below(5) as f64 / 64.0 + step } else { 0.0 };
+        let weight = if weighted { self.below(2) as f64 / 64.0 + step } else { 0.0 };
         WeightedPoint { at, weight }
     }
 }
