@@ -77,7 +77,7 @@ impl Frame {
             size: d.power_of_two(-12, -4),
             noise: d.power_of_two(-55, -10),
             flat: matches!(family, Family::NearDegenerate | Family::ScaledNearDegenerate) && d.below(2) == 0,
-            scale: if family == Family::ScaledNearDegenerate { d.power_of_two(-140, 199) } else { 1.0 },
+            scale: if family == Family::ScaledNearDegenerate { d.power_of_two(-140, 197) } else { 1.0 },
             weights: d.below(5),
         }
     }
