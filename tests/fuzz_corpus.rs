@@ -4,7 +4,8 @@
 use arbitrary::{Arbitrary, Unstructured};
 use orthoball::attack::readers::{self, Target};
 use orthoball::attack::{
-    CdtCase, GcdrCase, KernelCase, KernelCase3, MutatedMeshCase, MutatedTrace3Case, MutatedTraceCase, UserCase,
+    CdtCase, EditCase3, GcdrCase, KernelCase, KernelCase3, MutatedMeshCase, MutatedTrace3Case, MutatedTraceCase,
+    UserCase,
 };
 use orthoball::generators::SplitMix64;
 use orthoball::trace::{Event, Record, SkipReason, SplitKind, Why};
@@ -53,6 +54,13 @@ fn kernels3() {
 fn cdt() {
     replay("cdt", |bytes| {
         decoded::<CdtCase>(bytes).iter().for_each(CdtCase::run);
+    });
+}
+
+#[test]
+fn edits3() {
+    replay("edits3", |bytes| {
+        decoded::<EditCase3>(bytes).iter().for_each(EditCase3::run);
     });
 }
 
