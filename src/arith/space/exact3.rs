@@ -374,7 +374,7 @@ fn short_root(square: &Rational) -> (f64, f64) {
         let scaled = by_power(square, -2 * k);
         let m = Integer::from(scaled.floor_ref()).sqrt();
         if m.significant_bits() <= 26 {
-            let exact = Rational::from(m.clone().square()) == scaled;
+            let exact = m.clone().square() == scaled;
             let value = |m: Integer| round(&by_power(&Rational::from(m), k));
             return (value(m.clone()), value(if exact { m } else { m + 1 }));
         }

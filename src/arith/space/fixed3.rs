@@ -117,7 +117,7 @@ fn weight_difference(a: f64, b: f64, exponent: i32) -> Option<i128> {
         return Some(0);
     }
     let (head, tail) = two_sum(a, -b);
-    Some(integer(head, exponent)?.checked_add(integer(tail, exponent)?)?)
+    integer(head, exponent)?.checked_add(integer(tail, exponent)?)
 }
 
 /// x 2^exponent, if an integer below 2^124.

@@ -100,16 +100,17 @@ pub trait Kernel3: Kernel {
     /// The point where the dual line of a triangle (the points of equal power to its corners) meets the plane through u with normal m.
     fn dual_line_meets_plane(t: [WeightedPoint; 3], u: Point3, m: Point3) -> Result<Point3, ConstructionError>;
 
-    /// The points at parameters s in [0, 1] where |a + s (b - a) - c| = r, in ascending order of s; none, one or two.
+    /// The points at parameters s in [0, 1] where |a + s (b - a) - c| = r, in ascending order of s; none, one or two, the first
+    /// place filled first. None if a = b.
     fn sphere_meets_segment(c: Point3, r: f64, a: Point3, b: Point3) -> [Option<Point3>; 2];
 
-    /// |ab|, rounded to nearest.
+    /// |ab|, rounded to nearest; a length is no coordinate and is not made 0.
     fn distance(a: Point3, b: Point3) -> f64;
 
-    /// The radius of the circumsphere of a tetrahedron, rounded to nearest.
+    /// The radius of the circumsphere of a tetrahedron, rounded to nearest; `OutOfRange` beyond 2^200.
     fn circumradius(t: Corners3) -> Result<f64, ConstructionError>;
 
-    /// |ab| times s, rounded towards zero to 26 significant bits: a radius whose square is an f64. Source: design, law 4.
+    /// |ab| times s, rounded towards zero to 26 significant bits, s in 2^-500..2^500: a radius whose square is an f64. Source: design, law 4.
     fn short_radius_below(a: Point3, b: Point3, s: f64) -> f64;
 
     /// |ab| times s, rounded away from zero to 26 significant bits.
