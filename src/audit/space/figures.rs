@@ -6,7 +6,7 @@ use super::report::{Claim, ClaimReport, Witness};
 use crate::audit::figures::Classes;
 use crate::audit::report::Verdict;
 use crate::check::space::double::sign_in_space;
-use crate::check::space::glue::{BORDER, FACETS};
+use crate::check::space::glue::{BORDER, FACETS, glue};
 use crate::check::space::predicates::{Corners, cross, dot, vector};
 use crate::check::value::Number;
 use crate::model::{Point3, Sign};
@@ -201,9 +201,10 @@ pub(super) fn topology(complex: &Complex<'_>, border: Option<&Border<'_>>) -> Cl
     let vertices = complex.used().into_iter().filter(|&u| u).count();
     let (mut components, mut strong_components) = (vertices, complex.cells.len());
     let mut shared = 0;
+    let across = glue(&complex.cells, complex.sites.len()).across;
     for (t, cell) in (0u32..).zip(&complex.cells) {
         components -= (1..4).filter(|&k| by_vertex.join(cell[0], cell[k])).count();
-        for &slot in complex.across[4 * t as usize..4 * t as usize + 4].iter().filter(|&&s| s != BORDER) {
+        for &slot in across[4 * t as usize..4 * t as usize + 4].iter().filter(|&&s| s != BORDER) {
             shared += usize::from(slot / 4 > t);
             strong_components -= usize::from(by_facet.join(t, slot / 4));
         }
