@@ -3,9 +3,21 @@
 use super::Subject;
 use super::report::{Claim, ClaimReport};
 use crate::audit::report::Verdict;
-use crate::check::space::glue::{self, BORDER, Glue, MOST_CELLS};
+use crate::check::space::glue::{self, BORDER, MOST_CELLS, MOST_VERTICES};
 use crate::check::space::predicates::{Corners, orient};
-use crate::model::{Point3, Sign, WeightedPoint};
+use crate::model::{Point3, Sign, VertexId, WeightedPoint};
+
+/// Whether the orientations of cells are known to be as the file has them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Orientations {
+    /// Each is tested, and negative cells are turned.
+    Tested,
+    /// All are said to be positive; who relies on it has to test it.
+    Granted,
+}
+
+/// Cells whose corners are fetched together, since memory answers many questions in the time of one.
+pub(super) const BATCH: usize = 16;
 
 /// Most cells: twelve numbers for each, one for every edge of every facet, must fit 32 bits.
 const MOST: usize = MOST_CELLS / 3;
@@ -21,9 +33,7 @@ pub(super) struct Complex<'a> {
     pub in_file: Vec<u32>,
     /// Positions in the file of cells that are negative there.
     pub negative: Vec<u32>,
-    /// The slot on the other side of each, or `BORDER`.
-    pub across: Vec<u32>,
-    /// The corner on the other side of each, or `BORDER`.
+    /// The corner on the other side of each slot, or `BORDER`.
     pub far: Vec<u32>,
     /// Whether all points are finite.
     all_finite: bool,
@@ -35,7 +45,7 @@ pub(super) struct Complex<'a> {
 
 impl<'a> Complex<'a> {
     /// Builds it, and answers the local part of `valid`; without links, only what single cells say.
-    pub fn new(subject: &'a Subject<'a>, linked: bool) -> (Self, ClaimReport) {
+    pub fn new(subject: &'a Subject<'a>, linked: bool, orientations: Orientations) -> (Self, ClaimReport) {
         let mut report = ClaimReport::new(Claim::Valid);
         let (sites, exponent, unscalable) = scaled(subject);
         let mut complex = Complex {
@@ -45,16 +55,19 @@ impl<'a> Complex<'a> {
             cells: Vec::with_capacity(subject.cells.len()),
             in_file: Vec::with_capacity(subject.cells.len()),
             negative: Vec::new(),
-            across: Vec::new(),
             far: Vec::new(),
             exponent,
             unscalable,
         };
-        if subject.cells.len() > MOST {
-            return (complex, ClaimReport::unchecked(Claim::Valid, "there are more cells than can be numbered"));
+        if subject.cells.len() > MOST || subject.points.len() > MOST_VERTICES {
+            return (
+                complex,
+                ClaimReport::unchecked(Claim::Valid, "there are more cells or points than can be numbered"),
+            );
         }
-        for i in 0..subject.cells.len() {
-            complex.take(i as u32, &mut report);
+        let mut places = Vec::new();
+        for (k, batch) in (0u32..).zip(subject.cells.chunks(BATCH)) {
+            complex.take(BATCH as u32 * k, batch, orientations, &mut places, &mut report);
         }
         if linked {
             complex.link(&mut report);
@@ -98,7 +111,7 @@ impl<'a> Complex<'a> {
 
     /// The slots on the border.
     pub fn border(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..self.across.len() as u32).filter(|&s| self.across[s as usize] == BORDER)
+        (0u32..).zip(&self.far).filter(|s| *s.1 == BORDER).map(|s| s.0)
     }
 
     /// The cell of a slot, as the file counts.
@@ -106,10 +119,28 @@ impl<'a> Complex<'a> {
         self.in_file[(slot / 4) as usize]
     }
 
-    /// Takes cell i of the file if it is proper, turned positive.
-    fn take(&mut self, i: u32, report: &mut ClaimReport) {
+    /// Takes the cells of the file from `first` on that are proper, turned positive. `places` is space to work in.
+    fn take(
+        &mut self,
+        first: u32,
+        batch: &[[VertexId; 4]],
+        orientations: Orientations,
+        places: &mut Vec<[Point3; 4]>,
+        report: &mut ClaimReport,
+    ) {
+        places.clear();
+        if orientations == Orientations::Tested {
+            let place = |v: VertexId| self.sites.get(v.index()).map_or(Point3::ZERO, |p| p.at);
+            places.extend(batch.iter().map(|cell| cell.map(place)));
+        }
+        for (i, cell) in (first..).zip(batch) {
+            self.take_one(i, cell.map(|v| v.0), places.get((i - first) as usize), report);
+        }
+    }
+
+    /// Takes cell i of the file, with corners at these places, or else as it is.
+    fn take_one(&mut self, i: u32, mut cell: [u32; 4], places: Option<&[Point3; 4]>, report: &mut ClaimReport) {
         let subject = self.subject;
-        let mut cell = subject.cells[i as usize].map(|v| v.0);
         if let Some(&v) = cell.iter().find(|&&v| v as usize >= self.sites.len()) {
             report.violated(subject, &[], &[i], || format!("cell {i} refers to vertex {v}, which does not exist"));
             return;
@@ -119,8 +150,11 @@ impl<'a> Complex<'a> {
             report.violated(subject, &[v], &[i], || format!("cell {i} has vertex {v}, which is not finite"));
             return;
         }
-        let [a, b, c, d] = cell.map(|v| self.at(v));
-        match orient(a, b, c, d) {
+        // Links are made of cells with four different corners; what is granted otherwise is told by the second audit.
+        let orientation = places.map_or(Sign::Positive, |&[a, b, c, d]| orient(a, b, c, d));
+        let [a, b, c, d] = cell;
+        let repeated = a == b || a == c || a == d || b == c || b == d || c == d;
+        match if repeated { Sign::Zero } else { orientation } {
             Sign::Positive => {}
             Sign::Negative => {
                 self.negative.push(i);
@@ -140,8 +174,8 @@ impl<'a> Complex<'a> {
 
     /// Links cells across their facets. Both cells at a facet must lie on different sides of it.
     fn link(&mut self, report: &mut ClaimReport) {
-        let Glue { across, far, clashes } = glue::glue(&self.cells, self.sites.len());
-        (self.across, self.far) = (across, far);
+        let (far, clashes) = glue::far_corners(&self.cells, self.sites.len());
+        self.far = far;
         for slots in clashes {
             let mut apart = slots.clone();
             apart.sort_by_key(|&s| (self.apex(s), self.in_file[(s / 4) as usize]));

@@ -40,7 +40,7 @@ pub use report::{Claim, ClaimReport, Report, Witness};
 use super::report::Verdict;
 use crate::model::{Point3, VertexId};
 use border::Border;
-use complex::Complex;
+use complex::{Complex, Orientations};
 use isolated::Isolated;
 
 /// A mesh to be audited, as found in a file. Indices may be wrong, numbers not finite.
@@ -75,10 +75,19 @@ impl Default for Options<'_> {
 
 /// Audits a mesh.
 pub fn audit(subject: &Subject<'_>, options: &Options<'_>) -> Report {
+    // Where spheres are tested, orientations come with them; that all are positive, as nearly always, is taken for granted until then.
+    let granted = options.claims.iter().any(|c| spheres::is_about_spheres(*c));
+    let report = granted.then(|| audit_taking(subject, options, Orientations::Granted)).flatten();
+    // Tested orientations are never found wrong later.
+    report.or_else(|| audit_taking(subject, options, Orientations::Tested)).unwrap_or(Report { claims: Vec::new() })
+}
+
+/// Audits a mesh; nothing if an orientation that was granted is not positive.
+fn audit_taking(subject: &Subject<'_>, options: &Options<'_>, orientations: Orientations) -> Option<Report> {
     let asked = |claims: &[Claim]| claims.iter().any(|c| options.claims.contains(c));
     // These two ask of single cells.
     let linked = options.claims.iter().any(|c| !matches!(c, Claim::Orientation | Claim::Quality));
-    let (complex, mut valid) = Complex::new(subject, linked);
+    let (complex, mut valid) = Complex::new(subject, linked, orientations);
     // On a complex with faults the border means nothing.
     let border = (valid.verdict == Verdict::Holds && linked).then(|| Border::examine(&complex, &mut valid));
     let sound = valid.verdict == Verdict::Holds;
@@ -94,7 +103,7 @@ pub fn audit(subject: &Subject<'_>, options: &Options<'_>) -> Report {
         let mut report = match claim {
             Claim::Valid => valid.clone(),
             Claim::Orientation => complex::orientation(&complex),
-            Claim::Delaunay | Claim::Regular | Claim::Canonical => spheres::empty(&complex, claim, border, &isolated),
+            Claim::Delaunay | Claim::Regular | Claim::Canonical => spheres::empty(&complex, claim, border, &isolated)?,
             Claim::Hull => hull::hull(&complex, border, &isolated),
             Claim::Quality => figures::quality(&complex, options.radius_edge),
             Claim::Topology => figures::topology(&complex, border),
@@ -112,5 +121,5 @@ pub fn audit(subject: &Subject<'_>, options: &Options<'_>) -> Report {
         }
         claims.push(report);
     }
-    Report { claims }
+    Some(Report { claims })
 }

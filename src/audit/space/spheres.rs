@@ -9,37 +9,45 @@
 //! raised by infinitesimals the same holds.
 
 use super::border::Border;
-use super::complex::Complex;
+use super::complex::{BATCH, Complex};
 use super::isolated::Isolated;
 use super::report::{Claim, ClaimReport};
 use crate::audit::report::Verdict;
 use crate::audit::tree::Tree;
 use crate::check::scalar::{Bounded, Scalar};
+use crate::check::space::ball::{Ball as Orthoball, Row, near_side};
 use crate::check::space::glue::BORDER;
-use crate::check::space::predicates::{Corners, Sphere, exact_side, orient, side, tie_in_conflict};
+use crate::check::space::predicates::{Corners, orient, side, tie_in_conflict};
 use crate::model::{Point3, Sign, WeightedPoint};
 use std::borrow::Cow;
 
-/// One of the three claims of empty spheres.
+/// Whether a claim is one of the three.
+pub(super) fn is_about_spheres(claim: Claim) -> bool {
+    matches!(claim, Claim::Delaunay | Claim::Regular | Claim::Canonical)
+}
+
+/// One of the three claims of empty spheres; nothing if a cell is not positive.
 pub(super) fn empty(
     complex: &Complex<'_>,
     claim: Claim,
     border: Option<&Border<'_>>,
     isolated: &Isolated,
-) -> ClaimReport {
+) -> Option<ClaimReport> {
     let spheres = Spheres::new(complex, claim);
     let mut report = ClaimReport::new(claim);
-    spheres.across_facets(&mut report);
+    if !spheres.across_facets(&mut report) {
+        return None;
+    }
     // Without a border the mesh is no complex, and one conflict is as good as another.
     if let Some(border) = border.filter(|b| !b.is_convex && report.verdict == Verdict::Holds) {
         spheres.beyond_border(border, &mut report);
     }
     spheres.left_out(isolated, &mut report);
-    report.conclude(match claim {
+    Some(report.conclude(match claim {
         Claim::Delaunay => "no vertex inside a circumsphere",
         Claim::Regular => "no vertex inside an orthosphere",
         _ => "no conflict under the one tie-break",
-    })
+    }))
 }
 
 struct Spheres<'a> {
@@ -73,25 +81,42 @@ impl<'a> Spheres<'a> {
         }
     }
 
-    /// Each cell against the far corners of its neighbors, each pair once: conflict is mutual.
-    fn across_facets(&self, report: &mut ClaimReport) {
+    /// Each cell against the far corners of its neighbors, each pair once: conflict is mutual. False if a cell is not positive.
+    fn across_facets(&self, report: &mut ClaimReport) -> bool {
         let Complex { cells, far, .. } = self.complex;
-        for (i, (cell, far)) in (0u32..).zip(cells.iter().zip(far.as_chunks::<4>().0)) {
-            // Of two far corners that see each other, the smaller asks.
-            let asks = |k: usize| far[k] != BORDER && cell[k] < far[k];
-            if !(0..4).any(asks) {
-                continue;
+        let far = far.as_chunks::<4>().0;
+        let (mut corners, mut asked): (Vec<Corners>, Vec<(u32, u32, WeightedPoint)>) = (Vec::new(), Vec::new());
+        for (k, (cells, far)) in (0u32..).zip(cells.chunks(BATCH).zip(far.chunks(BATCH))) {
+            corners.clear();
+            corners.extend(cells.iter().map(|cell| cell.map(|v| self.sites[v as usize])));
+            asked.clear();
+            for (i, (cell, far)) in (0..).zip(cells.iter().zip(far)) {
+                // Of two far corners that see each other, the smaller asks.
+                let asks = cell.iter().zip(far).filter(|&(v, w)| *w != BORDER && v < w);
+                asked.extend(asks.map(|(_, &w)| (i, w, self.sites[w as usize])));
             }
-            let t = cell.map(|v| self.sites[v as usize]);
-            let sphere = Sphere::through(&t);
-            for v in (0..4).filter(|&k| asks(k)).map(|k| far[k]) {
-                let q = &self.sites[v as usize];
-                let side = sphere.side(q).unwrap_or_else(|| exact_side(&t, q));
-                if side != Sign::Negative && self.conflicts(side, &t, q) {
-                    self.witness(i, v, report);
+            let mut asked = &asked[..];
+            for (i, t) in (0..).zip(&corners) {
+                let [u, v, w] = [0, 1, 2].map(|k: usize| Row::new(t[3], t[k]));
+                let ball = Orthoball::new(&u, &v, &w);
+                let places = t.map(|p| p.at);
+                let orientation =
+                    ball.orientation().unwrap_or_else(|| orient(places[0], places[1], places[2], places[3]));
+                if orientation != Sign::Positive {
+                    return false;
+                }
+                while let Some(((j, v, q), rest)) = asked.split_first()
+                    && *j == i
+                {
+                    asked = rest;
+                    let side = ball.side(&Row::new(t[3], *q)).unwrap_or_else(|| near_side(&ball, t, q));
+                    if side != Sign::Negative && self.conflicts(side, t, q) {
+                        self.witness(BATCH as u32 * k + i, *v, report);
+                    }
                 }
             }
         }
+        true
     }
 
     /// The cells at the border against vertices beyond it; of each cell, one vertex is told.

@@ -23,7 +23,7 @@
 //! | `claims` | counts, the digest, the triangulation as data |
 //! | `checker` | records |
 
-mod ball;
+pub mod ball;
 mod certificate;
 mod checker;
 mod claims;

@@ -13,6 +13,7 @@
 //! 20 2^-53 `size`. Underflow happens only in the first range, where each loses at most 2^-1074 and is magnified less than 2^12 times: `TINY`
 //! pays for a thousand of them. Overflow gives an infinity or a NaN, and no answer.
 
+use super::ball::{Ball, Row, near_side};
 use super::double::sign_in_space;
 use crate::check::value::Number;
 use crate::model::{Point3, Sign, WeightedPoint};
@@ -90,62 +91,21 @@ fn triple(u: Point3, m: &[Sized; 3]) -> Sized {
 #[inline]
 pub fn orient(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
     let [value, size] = triple(b - a, &minors(c - a, d - a));
-    certain(value, size).unwrap_or_else(|| sign_in_space!(volume6(a, b, c, d)))
+    certain(value, size).unwrap_or_else(|| exact_orient(a, b, c, d))
 }
 
-/// The plane through the lifted corners of a cell: what is the same for all points that are tested against one orthosphere.
-#[derive(Clone, Copy, Debug)]
-pub struct Sphere {
-    base: WeightedPoint,
-    slope: [Sized; 3],
-    volume: Sized,
-}
-
-impl Sphere {
-    /// That of these corners, in any orientation.
-    #[inline]
-    pub fn through(t: &Corners) -> Sphere {
-        let base = t[0];
-        let [u, v, w] = [t[1].at - base.at, t[2].at - base.at, t[3].at - base.at];
-        let products = [minors(v, w), minors(w, u), minors(u, v)];
-        let lifts = [lift(u, &t[1], &base), lift(v, &t[2], &base), lift(w, &t[3], &base)];
-        let slope = [0, 1, 2].map(|axis| {
-            let part = |part: usize| {
-                let term = |k: usize| products[k][axis][part] * lifts[k][part];
-                term(0) + term(1) + term(2)
-            };
-            [part(0), part(1)]
-        });
-        Sphere { base, slope, volume: triple(u, &products[0]) }
-    }
-
-    /// Orientation of the corners, where doubles can tell.
-    #[inline]
-    pub fn orientation(&self) -> Option<Sign> {
-        certain(self.volume[0], self.volume[1])
-    }
-
-    /// As `side`, of positively oriented corners, where doubles can tell.
-    #[inline]
-    pub fn side(&self, q: &WeightedPoint) -> Option<Sign> {
-        let x = q.at - self.base.at;
-        let height = lift(x, q, &self.base);
-        let [along, along_size] = triple(x, &self.slope);
-        certain(along - self.volume[0] * height[0], along_size + self.volume[1] * height[1])
-    }
-}
-
-/// L(x).
-#[inline]
-fn lift(x: Point3, p: &WeightedPoint, base: &WeightedPoint) -> Sized {
-    let (square, weight) = (x.x * x.x + x.y * x.y + x.z * x.z, p.weight - base.weight);
-    [square - weight, square + weight.abs()]
+/// As `orient`, where doubles cannot tell.
+#[cold]
+fn exact_orient(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
+    sign_in_space!(volume6(a, b, c, d))
 }
 
 /// Position of q against the orthosphere of t: positive strictly inside (in conflict), zero on it.
 #[inline]
 pub fn side(t: &Corners, q: &WeightedPoint) -> Sign {
-    Sphere::through(t).side(q).unwrap_or_else(|| exact_side(t, q))
+    let [u, v, w] = [0, 1, 2].map(|k: usize| Row::new(t[3], t[k]));
+    let ball = Ball::new(&u, &v, &w);
+    ball.side(&Row::new(t[3], *q)).unwrap_or_else(|| near_side(&ball, t, q))
 }
 
 /// As `side`, where doubles cannot tell.

@@ -73,7 +73,8 @@ fn signs_are_those_of_the_determinants() {
         if orientation == Ordering::Greater {
             assert_eq!(order(side(&t, &q)), below, "{t:?} {q:?}");
             zeros += usize::from(below == Ordering::Equal);
-            open += usize::from(Sphere::through(&t).side(&q).is_none());
+            let [u, v, w] = [0, 1, 2].map(|k: usize| Row::new(t[3], t[k]));
+            open += usize::from(Ball::new(&u, &v, &w).side(&Row::new(t[3], q)).is_none());
             // A cell does not conflict with its own corners.
             assert!(t.iter().all(|p| !in_conflict(&t, p)));
         }
