@@ -180,6 +180,27 @@ impl Complex {
         }
     }
 
+    /// A slot for a cell that `set` will write.
+    #[inline]
+    pub fn reserve(&mut self) -> u32 {
+        self.free.pop().unwrap_or_else(|| {
+            self.cells.push(Cell { v: [NONE; 4], beyond: [NONE; 4] });
+            self.cells.len() as u32 - 1
+        })
+    }
+
+    /// Writes a cell. The other sides of its facets are the caller's.
+    #[inline]
+    pub fn set(&mut self, c: u32, cell: Cell) {
+        self.cells[c as usize] = cell;
+    }
+
+    /// Says what is on the other side of a facet.
+    #[inline]
+    pub fn set_beyond(&mut self, f: u32, beyond: u32) {
+        self.cells[(f >> 2) as usize].beyond[(f & 3) as usize] = beyond;
+    }
+
     /// Takes a cell out, and says what it was. Its slot is not used again before `release`.
     #[inline]
     pub fn take(&mut self, c: u32) -> Cell {

@@ -58,8 +58,10 @@ pub struct Cavity {
     rim: Vec<Rim>,
     /// For two positions in a small rim the facet that waits for its other side there.
     table: Vec<u32>,
-    /// The same for a large rim: ends, facet.
-    edges: Vec<(u32, u32, u32)>,
+    /// The same for a large rim: ends, whether it leads from the larger to the smaller, facet.
+    edges: Vec<(u32, u32, bool, u32)>,
+    /// For each facet of the rim, and each corner of it, the facet across from that corner and the corner it has instead: 4 facet + corner.
+    across: Vec<[u32; 3]>,
 }
 
 /// Rims of at most so many vertices are linked by a table.
@@ -122,7 +124,7 @@ impl Cavity {
         let at = mesh.point(p);
         self.check_hull_facets(mesh, at)?;
         self.make(mesh, p, at)?;
-        self.link(mesh)?;
+        self.link(mesh, p)?;
         self.check_rim()?;
         self.check_star(mesh, at, ties)
     }
@@ -145,24 +147,22 @@ impl Cavity {
         Ok(())
     }
 
-    /// Makes a cell on every facet of the rim. The slots of the cells destroyed are used first.
+    /// Numbers the rim, and gives each of its facets a slot for the cell on it: those of the cells destroyed first.
     fn make(&mut self, mesh: &mut Complex, p: u32, at: WeightedPoint) -> Checked {
         self.rim.clear();
         // Slots that are not used up stay ready; those next in line come last on the stack.
         self.flooded.iter().rev().for_each(|f| mesh.release(f.slot));
         for side in &mut self.sides {
-            let [x, y, z] = side.local;
-            side.cell = mesh.add([x, y, z, p]);
+            side.cell = mesh.reserve();
             for v in &mut side.local {
                 let known = mesh.local(*v);
                 let held = self.rim.get(known as usize).is_some_and(|r| r.vertex == *v);
+                let position = if held { known } else { self.rim.len() as u32 };
                 if !held {
-                    mesh.set_local(*v, self.rim.len() as u32);
+                    mesh.set_local(*v, position);
                     let row = if *v == INFINITE { Row::default() } else { Row::new(at, mesh.point(*v)) };
-                    self.rim.push(Rim { vertex: *v, row, cell: NONE });
+                    self.rim.push(Rim { vertex: *v, row, cell: side.cell });
                 }
-                let position = mesh.local(*v);
-                self.rim[position as usize].cell = side.cell;
                 *v = position;
             }
         }
@@ -176,41 +176,40 @@ impl Cavity {
         Ok(())
     }
 
-    /// Links the new cells with the old ones and with each other, across the edges of the rim.
-    fn link(&mut self, mesh: &mut Complex) -> Checked {
-        let small = self.rim.len() <= SMALL;
-        if small {
-            self.table.resize(SMALL * SMALL, NONE);
+    /// Finds what is across each edge of the rim, and writes the new cells.
+    fn link(&mut self, mesh: &mut Complex, p: u32) -> Checked {
+        self.across.clear();
+        self.across.resize(self.sides.len(), [NONE; 3]);
+        if self.rim.len() <= SMALL {
+            self.match_by_table()?
         } else {
-            self.edges.clear();
+            self.match_by_order()?
         }
-        for side in &self.sides {
-            mesh.join(4 * side.cell + 3, side.outer);
-            let [x, y, z] = side.local;
-            for (k, u, w) in [(0, y, z), (1, z, x), (2, x, y)] {
-                if !small {
-                    self.edges.push((u.min(w), u.max(w), (4 * side.cell + k) << 1 | u32::from(u > w)));
-                    continue;
-                }
-                let own = &mut self.table[u as usize * SMALL + w as usize];
-                ensure(*own == NONE, Rule::Star, || ("an edge of the rim in two facets", "in more"))?;
-                *own = 4 * side.cell + k;
-            }
+        for (side, across) in self.sides.iter().zip(&self.across) {
+            let [x, y, z] = side.local.map(|r| self.rim[r as usize].vertex);
+            let [u, v, w] = across.map(|a| 4 * self.sides[(a >> 2) as usize].cell + (a & 3));
+            mesh.set(side.cell, Cell { v: [x, y, z, p], beyond: [u, v, w, side.outer] });
+            mesh.set_beyond(side.outer, 4 * side.cell + 3);
         }
-        if small { self.link_by_table(mesh) } else { self.link_by_order(mesh) }
+        Ok(())
     }
 
-    fn link_by_table(&mut self, mesh: &mut Complex) -> Checked {
-        let mut open = 0;
-        for side in &self.sides {
+    fn match_by_table(&mut self) -> Checked {
+        self.table.resize(SMALL * SMALL, NONE);
+        for (i, side) in (0u32..).zip(&self.sides) {
             let [x, y, z] = side.local;
             for (k, u, w) in [(0, y, z), (1, z, x), (2, x, y)] {
-                let other = self.table[w as usize * SMALL + u as usize];
-                if other == NONE {
-                    open += 1;
-                } else {
-                    mesh.join(4 * side.cell + k, other);
-                }
+                let own = &mut self.table[u as usize * SMALL + w as usize];
+                ensure(*own == NONE, Rule::Star, || ("an edge of the rim in two facets", "in more"))?;
+                *own = 4 * i + k;
+            }
+        }
+        let mut open = 0;
+        for (side, across) in self.sides.iter().zip(&mut self.across) {
+            let [x, y, z] = side.local;
+            for (across, (u, w)) in across.iter_mut().zip([(y, z), (z, x), (x, y)]) {
+                *across = self.table[w as usize * SMALL + u as usize];
+                open += u32::from(*across == NONE);
             }
         }
         for side in &self.sides {
@@ -222,11 +221,21 @@ impl Cavity {
         ensure(open == 0, Rule::Star, || ("a closed rim", format!("{open} open edges")))
     }
 
-    fn link_by_order(&mut self, mesh: &mut Complex) -> Checked {
-        self.edges.sort_unstable_by_key(|e| (e.0, e.1, e.2 & 1));
+    fn match_by_order(&mut self) -> Checked {
+        self.edges.clear();
+        for (i, side) in (0u32..).zip(&self.sides) {
+            let [x, y, z] = side.local;
+            for (k, u, w) in [(0, y, z), (1, z, x), (2, x, y)] {
+                self.edges.push((u.min(w), u.max(w), u > w, 4 * i + k));
+            }
+        }
+        self.edges.sort_unstable();
         for same in self.edges.chunk_by(|e, f| (e.0, e.1) == (f.0, f.1)) {
             match *same {
-                [(_, _, e), (_, _, f)] if (e ^ f) & 1 == 1 => mesh.join(e >> 1, f >> 1),
+                [(_, _, false, e), (_, _, true, f)] => {
+                    self.across[(e >> 2) as usize][(e & 3) as usize] = f;
+                    self.across[(f >> 2) as usize][(f & 3) as usize] = e;
+                }
                 _ => return broken(Rule::Star, "an edge of the rim in two facets", format!("in {}", same.len())),
             }
         }
@@ -242,48 +251,47 @@ impl Cavity {
 
     /// (1), (4), (5).
     fn check_star(&self, mesh: &Complex, p: WeightedPoint, ties: Ties) -> Checked {
-        for side in &self.sides {
-            let cell = mesh.cell(side.cell);
-            if let Some(infinite) = cell.find(INFINITE) {
-                let finite = mesh.cell(cell.beyond[infinite] >> 2).is_finite();
-                ensure(finite, Rule::Hull, || ("a tetrahedron at a facet of the hull", format!("{:?}", cell.tuple())))?;
-                for k in (0..4).filter(|&k| k != infinite) {
-                    check_convex(mesh, side.cell, k)?;
-                }
+        for (i, (side, across)) in (0u32..).zip(self.sides.iter().zip(&self.across)) {
+            let corners = side.local.map(|r| &self.rim[r as usize]);
+            if corners.iter().any(|r| r.vertex == INFINITE) {
+                check_ghost(mesh, side.cell)?;
                 continue;
             }
-            let [u, v, w] = side.local.map(|r| &self.rim[r as usize].row);
-            let ball = Ball::new(u, v, w);
+            let ball = Ball::new(&corners[0].row, &corners[1].row, &corners[2].row);
             let positive = ball.orientation().unwrap_or_else(|| {
-                let [x, y, z] = [0, 1, 2].map(|k: usize| mesh.at(cell.v[k]));
+                let [x, y, z] = corners.map(|r| mesh.at(r.vertex));
                 orient(x, y, z, p.at)
             });
             ensure(positive.is_positive(), Rule::Orientation, || {
-                ("a positively oriented tetrahedron", format!("{:?}", cell.tuple()))
+                ("a positively oriented tetrahedron", format!("{:?}", mesh.cell(side.cell).tuple()))
             })?;
-            for k in 0..4 {
-                let f = cell.beyond[k];
-                let q = mesh.apex(f);
-                // Facets within the star are tested from one side.
-                if q == INFINITE || (k < 3 && f >> 2 < side.cell) {
-                    continue;
+            let empty_of = |q: u32, row: &Row| self.check_empty(mesh, side.cell, &ball, q, row, ties);
+            let beyond = mesh.apex(side.outer);
+            if beyond != INFINITE {
+                empty_of(beyond, &Row::new(p, mesh.point(beyond)))?;
+            }
+            // Facets within the star are tested from one side.
+            for &other in across.iter().filter(|&&a| a >> 2 > i) {
+                let apex = &self.rim[self.sides[(other >> 2) as usize].local[(other & 3) as usize] as usize];
+                if apex.vertex != INFINITE {
+                    empty_of(apex.vertex, &apex.row)?;
                 }
-                let here = mesh.local(q);
-                let certain = match self.rim.get(here as usize) {
-                    Some(r) if r.vertex == q => ball.side(&r.row),
-                    _ => ball.side(&Row::new(p, mesh.point(q))),
-                };
-                let side_of_q = certain.unwrap_or_else(|| near_side(&ball, &mesh.corners(side.cell), &mesh.point(q)));
-                let conflict = match (side_of_q, ties) {
-                    (Sign::Zero, Ties::Broken) => tie_in_conflict(&mesh.corners(side.cell), &mesh.point(q)),
-                    (s, _) => s.is_positive(),
-                };
-                ensure(!conflict, Rule::Regular, || {
-                    ("an orthoball empty of the next corner", format!("{:?} holds {:?}", cell.tuple(), id(q)))
-                })?;
             }
         }
         Ok(())
+    }
+
+    /// That q, seen as `row`, is not in conflict with a new tetrahedron.
+    #[inline]
+    fn check_empty(&self, mesh: &Complex, c: u32, ball: &Ball, q: u32, row: &Row, ties: Ties) -> Checked {
+        let side = ball.side(row).unwrap_or_else(|| near_side(ball, &mesh.corners(c), &mesh.point(q)));
+        let conflict = match (side, ties) {
+            (Sign::Zero, Ties::Broken) => tie_in_conflict(&mesh.corners(c), &mesh.point(q)),
+            (side, _) => side.is_positive(),
+        };
+        ensure(!conflict, Rule::Regular, || {
+            ("an orthoball empty of the next corner", format!("{:?} holds {:?}", mesh.cell(c).tuple(), id(q)))
+        })
     }
 
     /// (6): calls `lost` with every vertex that is no more, having proved that it is hidden. Not with `p`, should it have been a vertex before.
@@ -327,6 +335,15 @@ impl Cavity {
         let inner = self.flooded.iter().find(|g| g.slot == behind);
         inner.is_some_and(|g| g.cell.is_finite() && conflicts(g.cell.v.map(|v| mesh.point(v)), p, ties))
     }
+}
+
+/// (4) for one cell beyond the hull.
+fn check_ghost(mesh: &Complex, c: u32) -> Checked {
+    let cell = mesh.cell(c);
+    let infinite = cell.find(INFINITE).unwrap_or(3);
+    let finite = mesh.cell(cell.beyond[infinite] >> 2).is_finite();
+    ensure(finite, Rule::Hull, || ("a tetrahedron at a facet of the hull", format!("{:?}", cell.tuple())))?;
+    (0..4).filter(|&k| k != infinite).try_for_each(|k| check_convex(mesh, c, k))
 }
 
 /// Whether a lost vertex's cell is in conflict; ties count if they are free.
