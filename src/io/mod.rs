@@ -5,6 +5,7 @@
 //! mesher is for `domain` to say.
 
 mod angle;
+mod block;
 mod chains;
 mod cursor;
 mod error;
@@ -17,6 +18,7 @@ mod grid;
 mod input;
 mod medit;
 mod msh;
+mod msh_binary;
 mod number;
 mod off;
 mod points;

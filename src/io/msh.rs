@@ -1,4 +1,4 @@
-//! Reads Gmsh's `.msh`, versions 2.2 and 4.1, ASCII (Gmsh reference manual, section "MSH file format"), as a mesh of the plane or of space.
+//! Reads Gmsh's `.msh`, versions 2.2 and 4.1, ASCII and (by way of `msh_binary`) binary (Gmsh reference manual, section "MSH file format"), as a mesh of the plane or of space.
 //!
 //! In the plane, lines become constrained edges, their physical tag the marker; the physical tag of a triangle becomes its region
 //! attribute. In space, lines and triangles carry markers and tetrahedra regions. A physical name `marker m` or `region r`, as our writers give it, takes
@@ -9,6 +9,7 @@
 use super::flat::{FIX, Flat};
 use super::foreign::{ForeignEdge, ForeignMesh};
 use super::grid::{Value, take_weights, weight_array};
+use super::msh_binary::Text;
 use super::rows::{Element, Row, Rows};
 use super::{AnyMesh, Column, ForeignMesh3, ForeignTriangle, ReadError, error::shown};
 use crate::model::{Point3, VertexId};
@@ -16,27 +17,28 @@ use std::collections::BTreeMap;
 
 /// Reads a `.msh` file as a planar mesh.
 ///
-/// Errors: the first fault; binary files, other versions, elements of higher order and vertices off one plane z = constant are faults.
+/// Errors: the first fault; other versions, elements of higher order and vertices off one plane z = constant are faults.
 pub fn parse_msh(bytes: &[u8]) -> Result<ForeignMesh, ReadError> {
-    read(bytes, "", Want::Plane)?.into_plane()
+    read(&Text::of(bytes)?, "", Want::Plane)?.into_plane()
 }
 
 /// Reads a `.msh` file as a mesh of space; `column` names the view of weights of the nodes (without it `weight`, if there is one).
 ///
-/// Errors: the first fault; binary files, other versions and elements other than points, lines, triangles and tetrahedra are faults.
+/// Errors: the first fault; other versions and elements other than points, lines, triangles and tetrahedra are faults.
 pub fn parse_msh3(bytes: &[u8], column: Option<&Column>) -> Result<ForeignMesh3, ReadError> {
-    read(bytes, weight_array(".msh", column)?, Want::Space)?.into_space(column)
+    read(&Text::of(bytes)?, weight_array(".msh", column)?, Want::Space)?.into_space(column)
 }
 
 /// Reads a `.msh` file as a mesh of space if it has a tetrahedron or weights are asked for, and as a planar one otherwise.
 pub(super) fn parse_any_msh(bytes: &[u8], column: Option<&Column>) -> Result<AnyMesh, ReadError> {
-    let file = read(bytes, weight_array(".msh", column)?, Want::Space)?;
+    let text = Text::of(bytes)?;
+    let file = read(&text, weight_array(".msh", column)?, Want::Space)?;
     if !file.tetrahedra.is_empty() || column.is_some() {
         return file.into_space(column).map(AnyMesh::Space);
     }
     if file.second_order {
         // Refused there, with its place.
-        return parse_msh(bytes).map(AnyMesh::Plane);
+        return read(&text, "", Want::Plane)?.into_plane().map(AnyMesh::Plane);
     }
     file.into_plane().map(AnyMesh::Plane)
 }
@@ -49,12 +51,8 @@ enum Want {
 }
 
 /// Reads a file; `weights` is the name of the view that holds them.
-fn read<'a>(bytes: &'a [u8], weights: &str, want: Want) -> Result<File<'a>, ReadError> {
-    // The second line of a binary file is still text; what follows is not, and would be blamed for the wrong reason.
-    if let Some(e) = refuse_binary(bytes) {
-        return Err(e);
-    }
-    let mut rows = Rows::new(".msh", bytes)?.without_comments();
+fn read<'a>(text: &'a Text, weights: &str, want: Want) -> Result<File<'a>, ReadError> {
+    let mut rows = text.rows()?;
     let mut head = rows.expect(Element::The("header"))?;
     if head.word("$MeshFormat")? != "$MeshFormat" {
         return Err(head.fault(
@@ -106,20 +104,6 @@ fn read<'a>(bytes: &'a [u8], weights: &str, want: Want) -> Result<File<'a>, Read
         ));
     }
     Ok(file)
-}
-
-fn refuse_binary(bytes: &[u8]) -> Option<ReadError> {
-    let start = &bytes[..bytes.len().min(64)];
-    let mut lines = start.split(|&b| b == b'\n').map(<[u8]>::trim_ascii);
-    let binary = lines.next() == Some(b"$MeshFormat") && lines.next()?.split(|&b| b == b' ').nth(1) == Some(b"1");
-    binary.then(|| ReadError {
-        part: ".msh",
-        line: 2,
-        element: "format".into(),
-        problem: "the encoding is binary".into(),
-        fix: "save it as ASCII".into(),
-        ..ReadError::default()
-    })
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]

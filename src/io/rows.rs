@@ -53,6 +53,8 @@ pub(super) struct Rows<'a> {
     part: &'static str,
     lines: std::str::Lines<'a>,
     line: u32,
+    /// 0 where lines are no places of the file.
+    step: u32,
     size: usize,
     /// What starts a comment.
     comment: Option<char>,
@@ -62,7 +64,7 @@ impl<'a> Rows<'a> {
     /// Rows of a file whose comments start with `#`.
     pub(super) fn new(part: &'static str, bytes: &'a [u8]) -> Result<Rows<'a>, ReadError> {
         let lines = text(part, bytes)?.lines();
-        Ok(Rows { part, lines, line: 0, size: bytes.len(), comment: Some('#') })
+        Ok(Rows { part, lines, line: 0, step: 1, size: bytes.len(), comment: Some('#') })
     }
 
     /// The same rows where nothing starts a comment.
@@ -75,11 +77,16 @@ impl<'a> Rows<'a> {
         Rows { line, ..self }
     }
 
+    /// The same rows of a text that is not the file itself: faults have no line.
+    pub(super) fn without_places(self) -> Rows<'a> {
+        Rows { line: 0, step: 0, ..self }
+    }
+
     /// The next row, or nothing at the end of the file.
     pub(super) fn next(&mut self, element: Element) -> Option<Row<'a>> {
         loop {
             let whole = self.lines.next()?;
-            self.line = self.line.saturating_add(1);
+            self.line = self.line.saturating_add(self.step);
             let body = match self.comment.and_then(|c| whole.find(c)) {
                 Some(at) => &whole[..at],
                 None => whole,
@@ -164,7 +171,7 @@ impl<'a> Row<'a> {
     /// An error about the field read last.
     pub(super) fn fault_at(&self, field: &str, problem: String, fix: &str) -> ReadError {
         let column = self.whole.len() - self.rest.len() - field.len() + 1;
-        ReadError { column: clipped(column), ..self.fault(problem, fix) }
+        ReadError { column: if self.line == 0 { 0 } else { clipped(column) }, ..self.fault(problem, fix) }
     }
 
     /// The next field, if there is one.

@@ -1,13 +1,14 @@
 //! Reads VTK XML unstructured grids (`.vtu`) of one piece: triangles and lines in the plane, or tetrahedra, triangles and lines in space.
 //!
-//! Arrays may be ASCII, inline base64, or appended (raw or base64); compressed ones are refused by name. Of the data only what our
+//! Arrays may be ASCII, inline base64, or appended (raw or base64), plain or compressed by zlib (`block`). Of the data only what our
 //! writers give is taken: `marker` and `attribute_k` of points, `weight` in space, `marker` and `region` of cells (`gmsh:physical` stands in for either).
 
+use super::block::Blocks;
 use super::flat::{FIX, Flat};
 use super::foreign::{ForeignEdge, ForeignMesh};
 use super::grid::{Arrays, Cells, STAND_INS, Value, mesh_of_space, weight_array};
 use super::rows::{MOST_ELEMENTS, clipped, text};
-use super::scalar::{Scalar, whole};
+use super::scalar::Scalar;
 use super::xml::{Tag, TagKind, Tags};
 use super::{AnyMesh, Column, ForeignMesh3, ReadError, error::shown, number};
 use crate::model::Point2;
@@ -65,8 +66,7 @@ struct File<'a> {
     size: usize,
     points: usize,
     cells: usize,
-    big_endian: bool,
-    wide_header: bool,
+    blocks: Blocks,
     /// Encoding of the appended data, and the bytes behind its underscore.
     appended: Option<(&'a str, &'a [u8])>,
 }
@@ -93,12 +93,7 @@ impl<'a> File<'a> {
                 "only UnstructuredGrid is read here",
             ));
         }
-        if let Some(name) = root.get("compressor") {
-            return Err(root.fault(
-                format!("the arrays are compressed by {}", shown(name)),
-                "save the file uncompressed, best as ASCII",
-            ));
-        }
+        let blocks = Blocks::of(&root)?;
         let mut arrays = Vec::new();
         let mut piece: Option<Tag> = None;
         let mut section = "";
@@ -129,8 +124,7 @@ impl<'a> File<'a> {
             size: bytes.len(),
             points: count("NumberOfPoints")?,
             cells: count("NumberOfCells")?,
-            big_endian: root.get("byte_order") == Some("BigEndian"),
-            wide_header: root.get("header_type") == Some("UInt64"),
+            blocks,
             appended: appended(tail)?,
             piece,
             arrays,
@@ -171,15 +165,15 @@ impl<'a> File<'a> {
         }
         let values = match tag.get("format").unwrap_or("ascii") {
             "ascii" => ascii(tag)?,
-            "binary" => self.binary(tag, &self.base64(tag, tag.text.as_bytes())?)?,
+            "binary" => self.numbers(tag, &self.blocks.in_base64(tag, tag.text.as_bytes())?)?,
             "appended" => {
                 let missing = || tag.fault("its appended data is missing", "the file is truncated");
                 let (encoding, data) = self.appended.ok_or_else(missing)?;
                 let offset = tag.get("offset").and_then(|o| o.trim_ascii().parse::<usize>().ok());
                 let data = offset.and_then(|o| data.get(o..)).ok_or_else(missing)?;
                 match encoding {
-                    "raw" => self.binary(tag, data)?,
-                    _ => self.binary(tag, &self.base64(tag, data)?)?,
+                    "raw" => self.numbers(tag, &self.blocks.raw(tag, data)?)?,
+                    _ => self.numbers(tag, &self.blocks.in_base64(tag, data)?)?,
                 }
             }
             other => {
@@ -196,21 +190,7 @@ impl<'a> File<'a> {
         }
     }
 
-    fn base64(&self, tag: &Tag, text: &[u8]) -> Result<Vec<u8>, ReadError> {
-        from_base64(tag, text, self.header(), self.big_endian)
-    }
-
-    /// Bytes of the length that precedes a binary block.
-    fn header(&self) -> usize {
-        if self.wide_header { 8 } else { 4 }
-    }
-
-    /// Numbers of an uncompressed block: its length in bytes, then the values.
-    fn binary(&self, tag: &Tag, data: &[u8]) -> Result<Vec<Value>, ReadError> {
-        let truncated = || tag.fault("its data ends early", "the file is truncated");
-        let (head, data) = data.split_at_checked(self.header()).ok_or_else(truncated)?;
-        let length = usize::try_from(whole(head, self.big_endian)).map_err(|_| truncated())?;
-        let data = data.get(..length).ok_or_else(truncated)?;
+    fn numbers(&self, tag: &Tag, data: &[u8]) -> Result<Vec<Value>, ReadError> {
         let kind = tag.get("type").unwrap_or("");
         let scalar = match kind {
             "Int8" => Scalar::I8,
@@ -226,7 +206,7 @@ impl<'a> File<'a> {
             other => return Err(tag.fault(format!("the type is {}", shown(other)), "")),
         };
         let items = data.chunks_exact(scalar.size());
-        let values: Vec<Value> = items.map(|item| (scalar.value(item, self.big_endian), 0)).collect();
+        let values: Vec<Value> = items.map(|item| (scalar.value(item, self.blocks.big_endian), 0)).collect();
         match values.iter().position(|(x, _)| !x.is_finite()) {
             Some(i) => Err(tag.fault(format!("number {} is not finite", i + 1), "")),
             None => Ok(values),
@@ -257,44 +237,6 @@ fn appended(tail: &[u8]) -> Result<Option<(&'static str, &[u8])>, ReadError> {
         Some(at) => Ok(Some((encoding, &tail[end + at + 1..]))),
         None => bad("the underscore that starts the data is missing"),
     }
-}
-
-/// Decodes one block: first so much that its length is known, then all of it. White space may stand before it.
-fn from_base64(tag: &Tag, text: &[u8], header: usize, big_endian: bool) -> Result<Vec<u8>, ReadError> {
-    let text = text.trim_ascii_start();
-    let bad = || tag.fault("its base64 data is damaged or ends early", "the file is truncated");
-    let prefix = base64(text, header).ok_or_else(bad)?;
-    let length = usize::try_from(whole(&prefix, big_endian)).ok().and_then(|n| n.checked_add(header));
-    // Four characters hold three bytes, so that a longer block cannot be here.
-    let length = length.filter(|&n| n <= text.len()).ok_or_else(bad)?;
-    base64(text, length).ok_or_else(bad)
-}
-
-/// The first bytes of base64 text; nothing if it holds fewer.
-fn base64(text: &[u8], bytes: usize) -> Option<Vec<u8>> {
-    let mut out = Vec::with_capacity(bytes);
-    let (mut bits, mut filled) = (0u32, 0);
-    for &c in text {
-        if out.len() == bytes {
-            break;
-        }
-        let six = match c {
-            b'A'..=b'Z' => c - b'A',
-            b'a'..=b'z' => c - b'a' + 26,
-            b'0'..=b'9' => c - b'0' + 52,
-            b'+' => 62,
-            b'/' => 63,
-            _ => return None,
-        };
-        bits = bits << 6 | u32::from(six);
-        filled += 6;
-        if filled >= 8 {
-            filled -= 8;
-            // The lowest byte above the bits that are left.
-            out.push((bits >> filled) as u8);
-        }
-    }
-    (out.len() == bytes).then_some(out)
 }
 
 fn ascii(tag: &Tag) -> Result<Vec<Value>, ReadError> {
@@ -329,8 +271,8 @@ fn points(file: &File, mesh: &mut ForeignMesh) -> Result<(), ReadError> {
     let mut columns = Vec::new();
     while let Some(column) = file.perhaps("PointData", &format!("attribute_{}", columns.len()), file.points)? {
         columns.push(column);
-        // Honest columns take a byte a number; appended ones could all name the same bytes.
-        if columns.len().saturating_mul(file.points) > file.size {
+        // Honest columns take a byte a number, before they are compressed; appended ones could all name the same bytes.
+        if columns.len().saturating_mul(file.points) > file.blocks.most(file.size) {
             return Err(file.piece.fault("the attributes are more than the file can hold", ""));
         }
     }

@@ -123,8 +123,8 @@ fn bad_msh() {
                 ".msh line 1: header: the file does not start with $MeshFormat; only Gmsh's .msh is read here; other programs use the same extension",
             ),
             (
-                b"$MeshFormat\n4.1 1 8\n\x01\x00\x00\x00\n",
-                ".msh line 2: format: the encoding is binary; save it as ASCII",
+                b"$MeshFormat\n4.1 1 4\n\x01\x00\x00\x00\n",
+                ".msh: $MeshFormat: the size of numbers is 4 bytes; save it as ASCII",
             ),
             (
                 b"$MeshFormat\n3 0 8\n$EndMeshFormat\n",
@@ -223,6 +223,23 @@ fn vtu_encodings() {
     let bytes = [head.as_bytes(), &raw, tail.as_bytes()].concat();
     assert_eq!(read(&bytes), due);
     survives(parse_vtu, &bytes);
+    // Compressed by Python's zlib, the points in chunks of 16 bytes, the last of 4.
+    let blocks = [
+        "AwAAABAAAAAEAAAADQAAAA0AAAAMAAAAeJxjYEAGDfYAAU8AwHicY2BABg32AAFPAMB4nGNgYGAAAAAEAAE=",
+        "AQAAAAwAAAAAAAAAEQAAAA==eJxjYGBgYARiJiAGAAAcAAQ=",
+        "AQAAAACAAAAEAAAADAAAAA==eJxjZmBgAAAAEAAE",
+        "AQAAAACAAAABAAAACQAAAA==eJxjBQAABgAG",
+    ];
+    let inline = blocks.map(|b| format!("format='binary'>\n {b}\n</DataArray>"));
+    let zlib = wrap("compressor='vtkZLibDataCompressor'", inline.each_ref().map(|s| &**s), "");
+    assert_eq!(read(zlib.as_bytes()), due);
+    survives(parse_vtu, zlib.as_bytes());
+    for (from, to) in [("eJxjZm", "eJxjZn"), ("AwAAABAAAAAEAAAA", "AwAAABAAAAAIAAAA")] {
+        assert!(
+            parse_vtu(zlib.replacen(from, to, 1).as_bytes()).unwrap_err().to_string().contains("damaged"),
+            "{from}"
+        );
+    }
 }
 
 #[test]
@@ -240,8 +257,8 @@ fn bad_vtu() {
     );
     with(
         "byte_order",
-        "compressor=\"vtkZLibDataCompressor\" byte_order",
-        ".vtu line 2: VTKFile: the arrays are compressed by vtkZLibDataCompressor; save the file uncompressed, best as ASCII",
+        "compressor=\"vtkLZ4DataCompressor\" byte_order",
+        ".vtu line 2: VTKFile: the arrays are compressed by vtkLZ4DataCompressor; save the file uncompressed or compressed by zlib",
     );
     with(
         "NumberOfPoints=\"6\"",

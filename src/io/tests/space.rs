@@ -317,3 +317,142 @@ proptest! {
         prop_assert_eq!(plain(again), mesh);
     }
 }
+
+/// Numbers of a binary file in either order of bytes.
+struct Bytes {
+    bytes: Vec<u8>,
+    big_endian: bool,
+}
+
+impl Bytes {
+    fn text(&mut self, text: &str) {
+        self.bytes.extend(text.as_bytes());
+    }
+
+    fn put<const N: usize>(&mut self, little: [u8; N]) {
+        let mut bytes = little;
+        if self.big_endian {
+            bytes.reverse();
+        }
+        self.bytes.extend(bytes);
+    }
+
+    fn ints(&mut self, ints: &[i32]) {
+        ints.iter().for_each(|x| self.put(x.to_le_bytes()));
+    }
+
+    fn sizes(&mut self, sizes: &[u64]) {
+        sizes.iter().for_each(|x| self.put(x.to_le_bytes()));
+    }
+
+    fn doubles(&mut self, p: Point3) {
+        p.to_array().iter().for_each(|x| self.put(x.to_le_bytes()));
+    }
+}
+
+/// Two tetrahedra in regions 7 and 9 and a triangle as Gmsh writes them in binary, with tags that are not their ranks.
+fn binary_msh(four: bool, big_endian: bool) -> (Vec<u8>, ForeignMesh3) {
+    let mesh = ForeignMesh3 {
+        tetrahedron_attributes: vec![7.0, 9.0],
+        triangles: vec![ForeignTriangle { corners: [0, 1, 2].map(VertexId), marker: 5 }],
+        points: sample3().points,
+        tetrahedra: sample3().tetrahedra,
+        ..ForeignMesh3::default()
+    };
+    let tag = |v: VertexId| 10 + 2 * v.index() as i32;
+    let mut b = Bytes { bytes: Vec::new(), big_endian };
+    b.text(&format!("$MeshFormat\n{} 1 8\n", if four { "4.1" } else { "2.2" }));
+    b.ints(&[1]);
+    b.text("\n$EndMeshFormat\n$Periodic\n\x01\x02\x03$EndPeriodic\n");
+    if four {
+        b.text("$Entities\n");
+        b.sizes(&[1, 0, 1, 2]);
+        b.ints(&[3]);
+        b.doubles(Point3::ZERO);
+        b.sizes(&[0]);
+        for (dimension, tag, group) in [(2, 1, 5), (3, 1, 7), (3, 2, 9)] {
+            b.ints(&[tag]);
+            b.doubles(Point3::ZERO);
+            b.doubles(Point3::ONE);
+            b.sizes(&[1]);
+            b.ints(&[group]);
+            b.sizes(&[dimension - 2]);
+            b.ints(if dimension == 3 { &[-1] } else { &[] });
+        }
+        b.text("\n$EndEntities\n$Nodes\n");
+        b.sizes(&[2, 6, 10, 20]);
+        for (dimension, points) in [(1, 0..2), (3, 2..6u32)] {
+            b.ints(&[dimension, 1, dimension % 3]);
+            b.sizes(&[points.len() as u64]);
+            points.clone().for_each(|v| b.sizes(&[tag(VertexId(v)) as u64]));
+            for v in points {
+                b.doubles(mesh.points[v as usize]);
+                // The parameter on a curve.
+                b.sizes(if dimension == 1 { &[77] } else { &[] });
+            }
+        }
+        b.text("\n$EndNodes\n$Elements\n");
+        b.sizes(&[3, 3, 1, 3]);
+        let elements: [(i32, i32, i32, &[VertexId]); 3] =
+            [(2, 1, 2, &mesh.triangles[0].corners), (3, 1, 4, &mesh.tetrahedra[0]), (3, 2, 4, &mesh.tetrahedra[1])];
+        for (k, (dimension, entity, kind, corners)) in elements.into_iter().enumerate() {
+            b.ints(&[dimension, entity, kind]);
+            b.sizes(&[1, k as u64 + 1]);
+            corners.iter().for_each(|&v| b.sizes(&[tag(v) as u64]));
+        }
+    } else {
+        b.text("$Nodes\n6\n");
+        for (v, p) in (0..).zip(&mesh.points) {
+            b.ints(&[tag(VertexId(v))]);
+            b.doubles(*p);
+        }
+        b.text("\n$EndNodes\n$Elements\n3\n");
+        b.ints(&[2, 1, 2, 1, 5, 1]);
+        mesh.triangles[0].corners.iter().for_each(|&v| b.ints(&[tag(v)]));
+        b.ints(&[4, 2, 1]);
+        for (k, cell) in (0..).zip(&mesh.tetrahedra) {
+            b.ints(&[2 + k, 7 + 2 * k]);
+            cell.iter().for_each(|&v| b.ints(&[tag(v)]));
+        }
+    }
+    b.text("\n$EndElements\n");
+    (b.bytes, mesh)
+}
+
+#[test]
+fn binary_msh_is_read() {
+    for (four, big_endian) in [(false, false), (false, true), (true, false), (true, true)] {
+        let (bytes, mesh) = binary_msh(four, big_endian);
+        let read = parse_msh3(&bytes, None).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(read.lines.points, [0; 6], "lines of a binary file mean nothing");
+        assert_eq!(plain(read), mesh, "version four: {four}, big endian: {big_endian}");
+        survives(|b| parse_msh3(b, None), &bytes);
+    }
+    let (bytes, _) = binary_msh(false, false);
+    // The type of the block of tetrahedra becomes that of hexahedra, or the count of nodes grows.
+    let with = |from: &[u8], to: &[u8]| {
+        let at = bytes.windows(from.len()).position(|w| w == from).expect("the bytes are there");
+        [&bytes[..at], to, &bytes[at + from.len()..]].concat()
+    };
+    let hexahedra = with(&[4, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0], &[5, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0]);
+    let more = with(b"$Nodes\n6", b"$Nodes\n9");
+    let no_node = with(&[14, 0, 0, 0, 16, 0, 0, 0], &[14, 0, 0, 0, 15, 0, 0, 0]);
+    refuses(
+        |b| parse_msh3(b, None),
+        &[
+            (
+                &hexahedra,
+                ".msh: element 2: the type of the element is 5; only points (15), lines (1, 8), triangles (2, 9) and tetrahedra (4, 11) are read here",
+            ),
+            (
+                &more,
+                ".msh: $Nodes: bytes that are no text where a line of text is due; the counts of the section are wrong, or the file is damaged",
+            ),
+            (&no_node, ".msh: element 2: there is no node 15; correct the element or add the node"),
+            (
+                &bytes[..200],
+                ".msh: $Nodes: the file ends within it; the file is truncated or declares too many elements",
+            ),
+        ],
+    );
+}
