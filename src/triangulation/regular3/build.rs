@@ -28,6 +28,13 @@ impl<K: Kernel3> Regular3<K> {
     }
 
     pub(super) fn build_alone(points: &[WeightedPoint]) -> Self {
+        let mut t = Self::build_unsettled(points);
+        t.settle();
+        t
+    }
+
+    /// All cells; but hints are not set, and of the hidden points nothing is known.
+    pub(super) fn build_unsettled(points: &[WeightedPoint]) -> Self {
         let order = Self::insertion_order(points);
         let mut t = Self::with_capacity(points.len());
         t.places.resize(points.len(), NONE);
@@ -37,7 +44,6 @@ impl<K: Kernel3> Regular3<K> {
         }
         drop(order);
         t.insert_all();
-        t.settle();
         t
     }
 
@@ -72,19 +78,29 @@ impl<K: Kernel3> Regular3<K> {
     }
 
     /// Sets all hints and lets the hidden points lodge.
-    pub(super) fn settle(&mut self) {
+    fn settle(&mut self) {
         for (hint, &status) in self.hints.iter_mut().zip(&self.status) {
             if status == Status::Vertex {
                 *hint = NONE;
             }
         }
-        for (i, cell) in (0u32..).zip(&self.cells) {
+        self.set_hints_from(0);
+        self.lodge_all();
+    }
+
+    /// Lets the vertices of all cells from this slot on refer to them.
+    pub(super) fn set_hints_from(&mut self, start: u32) {
+        for (i, cell) in (start..).zip(&self.cells[start as usize..]) {
             if !cell.is_free() {
                 for v in cell.v {
                     self.hints[v as usize] = i;
                 }
             }
         }
+    }
+
+    /// Points without a hint are hidden: lets them lodge.
+    pub(super) fn lodge_all(&mut self) {
         for place in FIRST..self.sites.len() as u32 {
             if self.hints[place as usize] == NONE {
                 match self.lodgers.by_site.get(&super::lodge::key(self.site(place))) {

@@ -45,7 +45,7 @@ pub(super) fn insertion_order(points: &[WeightedPoint]) -> Vec<u32> {
 }
 
 /// A mixing function (the finalizer of splitmix64).
-fn hash(i: u32) -> u64 {
+pub(super) fn hash(i: u32) -> u64 {
     let mut z = (u64::from(i) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

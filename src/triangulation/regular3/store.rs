@@ -84,6 +84,13 @@ impl Cell {
 #[repr(align(32))]
 pub(super) struct Site(pub(super) WeightedPoint);
 
+impl Site {
+    pub(super) fn of(p: WeightedPoint) -> Site {
+        // -0 would not be equal to 0 in the order of points.
+        Site(WeightedPoint { at: p.at + crate::model::Point3::ZERO, weight: p.weight + 0.0 })
+    }
+}
+
 /// What the point of a place is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -270,10 +277,9 @@ impl<K: Kernel3> Regular3<K> {
     /// Gives a new point the next place; its id is to be set by the caller.
     pub(super) fn add_site(&mut self, p: WeightedPoint, id: u32) -> u32 {
         let place = self.sites.len() as u32;
-        // -0 would not be equal to 0 in the order of points.
-        let p = WeightedPoint { at: p.at + crate::model::Point3::ZERO, weight: p.weight + 0.0 };
-        self.take_note_of(p);
-        self.sites.push(Site(p));
+        let site = Site::of(p);
+        self.take_note_of(site.0);
+        self.sites.push(site);
         self.ids.push(id);
         self.status.push(Status::Vertex);
         self.hints.push(NONE);

@@ -1,0 +1,186 @@
+//! The pieces are put together.
+//!
+//! Inner cells are copied, piece after piece, all threads at each. Mixed cells come once, in the order of their ids; of its neighbors each thread
+//! knows some. What links are still open are on the boundary of holes, which the triangulation of the torn points fills.
+
+use super::super::fill::{Key, cells_within, key};
+use super::super::star::Rim;
+use super::super::store::{Cell, FACET, FIRST, NONE, Regular3, Site, Status};
+use super::piece::Piece;
+use crate::arith::space::Kernel3;
+use crate::model::WeightedPoint;
+use rayon::prelude::*;
+
+impl<K: Kernel3> Regular3<K> {
+    /// Puts the pieces together and fills what they leave open; `None` if they do not fit.
+    pub(super) fn assemble(points: &[WeightedPoint], mut pieces: Vec<Piece>) -> Option<Self> {
+        let mut t = Self::with_capacity(points.len());
+        t.dimension = Some(3);
+        t.take_points(points, &pieces);
+        let mut torn: Vec<u32> = pieces.iter().flat_map(|p| &p.torn).map(|&id| t.places[id as usize]).collect();
+        torn.sort_unstable();
+        torn.dedup();
+        let mixed = number_mixed(&mut pieces);
+        let (mut first_place, mut first_cell) = (FIRST, 0);
+        let (mut open, mut known) = (Vec::new(), Vec::new());
+        for piece in pieces {
+            open.extend(piece.open.iter().map(|&link| piece.moved(link, first_cell)));
+            known.extend(piece.mixed.iter().map(|m| {
+                (
+                    piece.number[m.cell as usize] + first_cell,
+                    piece.cells[m.cell as usize].n.map(|n| piece.moved(n, first_cell)),
+                )
+            }));
+            t.cells.par_extend(piece.inner.par_iter().map(|&c| {
+                let Cell { v, n } = piece.cells[c as usize];
+                Cell {
+                    v: v.map(|v| piece.rank[v as usize] + first_place),
+                    n: n.map(|link| piece.moved(link, first_cell)),
+                }
+            }));
+            first_place += piece.order.len() as u32;
+            first_cell += piece.inner.len() as u32;
+        }
+        let of_ids = |ids: &[u32; 4]| Cell { v: ids.map(|id| t.places[id as usize]), n: [NONE; 4] };
+        t.cells.par_extend(mixed.par_iter().map(of_ids));
+        t.link_mixed(&known)?;
+        for c in first_cell..t.cells.len() as u32 {
+            open.extend((4 * c..4 * c + 4).filter(|&link| t.cells[c as usize].n[(link & 3) as usize] == NONE));
+        }
+        let mut seams = Vec::new();
+        let facets = open.iter().map(|&link| (key(t.facet(link)), link)).collect();
+        let rim = t.glue_facets(facets, &mut seams);
+        t.close(&rim, &torn, &mut seams)?;
+        t.marks = vec![0; t.cells.len()];
+        t.last = seams.first()?[0] >> 2;
+        t.set_hints_from(first_cell);
+        t.lodge_all();
+        t.fits(&seams).then_some(t)
+    }
+
+    /// Gives the points of all pieces their places, and those of inner cells their hints.
+    fn take_points(&mut self, points: &[WeightedPoint], pieces: &[Piece]) {
+        let mut first_cell = 0;
+        for piece in pieces {
+            let site = |&id: &u32| Site::of(points[id as usize]);
+            self.sites.par_extend(piece.order.par_iter().map(site));
+            self.ids.extend_from_slice(&piece.order);
+            let hint = |&number: &u32| if number == NONE { NONE } else { number + first_cell };
+            self.hints.extend(piece.hints.iter().map(hint));
+            first_cell += piece.inner.len() as u32;
+            self.has_weights |= piece.has_weights;
+            if piece.unit < self.unit {
+                (self.unit, self.exact_below) = (piece.unit, piece.exact_below);
+            }
+        }
+        self.status.resize(self.sites.len(), Status::Vertex);
+        self.places.resize(points.len(), NONE);
+        for (place, &id) in (FIRST..).zip(&self.ids[FIRST as usize..]) {
+            self.places[id as usize] = place;
+        }
+        for [twin, of] in pieces.iter().flat_map(|p| &p.twins) {
+            let (twin, of) = (self.places[*twin as usize], self.places[*of as usize]);
+            self.make_twin(twin, of);
+        }
+    }
+
+    /// Links mixed cells, given with what a thread knows of their neighbors; `None` if two threads contradict each other.
+    fn link_mixed(&mut self, known: &[(u32, [u32; 4])]) -> Option<()> {
+        for &(c, links) in known {
+            for (link, known) in self.cells[c as usize].n.iter_mut().zip(links) {
+                if *link == NONE {
+                    *link = known;
+                } else if known != NONE && known != *link {
+                    return None;
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// The facet that a link names, seen from inside of its cell.
+    fn facet(&self, link: u32) -> [u32; 3] {
+        let v = self.cells[(link >> 2) as usize].v;
+        FACET[(link & 3) as usize].map(|k| v[k])
+    }
+
+    /// Links facets that occur twice, and lists those links; returns the others, seen from outside of the cells.
+    fn glue_facets(&mut self, mut facets: Vec<(Key, u32)>, seams: &mut Vec<[u32; 2]>) -> Vec<Rim> {
+        facets.sort_unstable();
+        let mut rim = Vec::new();
+        for same in facets.chunk_by(|a, b| a.0 == b.0) {
+            if let [(_, one), (_, other)] = *same {
+                self.link(one, other);
+                seams.push([one, other]);
+                continue;
+            }
+            for &(_, link) in same {
+                let [x, y, z] = self.facet(link);
+                rim.push(Rim { v: [x, z, y], outer: link });
+            }
+        }
+        rim
+    }
+
+    /// Fills what is open from the triangulation of the torn points; `None` if that leaves anything open.
+    fn close(&mut self, rim: &[Rim], torn: &[u32], seams: &mut Vec<[u32; 2]>) -> Option<()> {
+        let points: Vec<WeightedPoint> = torn.iter().map(|&place| self.site(place)).collect();
+        let subset = Self::build_alone(&points);
+        if subset.dimension != Some(3) {
+            return None;
+        }
+        let mut facets: Vec<(Key, u32)> = rim.iter().map(|f| (key(f.v), f.outer)).collect();
+        for v in cells_within(&subset, torn, rim) {
+            let c = self.cells.len() as u32;
+            facets.extend((0u32..).zip(FACET).map(|(i, f)| (key(f.map(|k| v[k])), 4 * c + i)));
+            self.cells.push(Cell { v, n: [NONE; 4] });
+        }
+        self.glue_facets(facets, seams).is_empty().then_some(())
+    }
+
+    /// Whether the complex is regular across the seams and hidden points are.
+    fn fits(&self, seams: &[[u32; 2]]) -> bool {
+        let regular = |from: u32, to: u32| {
+            let cell = &self.cells[(from >> 2) as usize];
+            let opposite = self.cells[(to >> 2) as usize].v[(to & 3) as usize];
+            opposite < FIRST || !self.in_conflict(cell, self.site(opposite))
+        };
+        let hidden = |(&c, places): (&u32, &Vec<u32>)| {
+            let cell = &self.cells[c as usize];
+            !cell.is_ghost() && places.iter().all(|&place| !self.in_conflict(cell, self.site(place)))
+        };
+        seams.par_iter().all(|&[one, other]| regular(one, other) && regular(other, one))
+            && self.lodgers.of_cell.iter().all(hidden)
+    }
+}
+
+impl Piece {
+    /// A link between cells of the piece as one of the whole, where the piece's inner cells start at `first`; `NONE` to a cell without a number.
+    fn moved(&self, link: u32, first: u32) -> u32 {
+        match self.number[(link >> 2) as usize] {
+            NONE => NONE,
+            number => 4 * (number + first) + (link & 3),
+        }
+    }
+}
+
+/// The mixed cells of all pieces, each once. They get numbers that follow those of all inner cells.
+fn number_mixed(pieces: &mut [Piece]) -> Vec<[u32; 4]> {
+    let mut all: Vec<[u32; 4]> = pieces.iter().flat_map(|p| p.mixed.iter().map(|m| m.ids)).collect();
+    all.par_sort_unstable();
+    all.dedup();
+    // Numbers count from the piece's first cell.
+    let starts = pieces.iter().scan(0, |sum, p| Some(std::mem::replace(sum, *sum + p.inner.len() as u32)));
+    let starts: Vec<u32> = starts.collect();
+    let end: u32 = pieces.iter().map(|p| p.inner.len() as u32).sum();
+    pieces.par_iter_mut().zip(starts).for_each(|(piece, start)| {
+        // Both lists ascend.
+        let mut of_all = (end - start..).zip(&all);
+        for m in &piece.mixed {
+            if let Some((number, _)) = of_all.find(|(_, ids)| **ids == m.ids) {
+                piece.number[m.cell as usize] = number;
+            }
+        }
+    });
+    all
+}
