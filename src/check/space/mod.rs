@@ -12,7 +12,8 @@
 //! | file | says |
 //! |---|---|
 //! | `predicates` | orientation, orthosphere, the one tie-break |
-//! | `double` | numbers of twice the digits, for near ties |
+//! | `integers` | near ties in integers of fixed width |
+//! | `double` | numbers of twice the digits, for other near ties |
 //! | `ball` | the same seen from one vertex; seldom tests |
 //! | `glue` | which cells share a facet |
 //! | `complex` | cells and links |
@@ -33,6 +34,7 @@ mod fill;
 pub mod glue;
 mod hidden;
 mod insert;
+mod integers;
 pub mod predicates;
 mod replay;
 

@@ -4,7 +4,8 @@
 //! lifts of a positively oriented cell is S.x / D with D = u.(v x w) and S = L(u) (v x w) + L(v) (w x u) + L(w) (u x v). A point q is strictly
 //! inside the orthosphere (with weights 0: the circumsphere) where its lift is below that plane: S.x - D L(x) > 0.
 //!
-//! First a value in doubles with a proven error bound; then pairs of doubles (`double`), which know when a value is exact; then rationals.
+//! First a value in doubles with a proven error bound; then integers of fixed width (`integers`), if differences of coordinates fit a word; then pairs of
+//! doubles (`double`); then rationals.
 //!
 //! The range: either no coordinate and no weight exceeds 1, or products of up to five differences and weights neither under- nor overflow.
 //! Differences of coordinates count as variables, so each is rounded once. A monomial of S.x - D L(x) is rounded at most 18 times: u_x twice
@@ -15,6 +16,7 @@
 
 use super::ball::{Ball, Row, near_side};
 use super::double::sign_in_space;
+use super::integers;
 use crate::check::value::Number;
 use crate::model::{Point3, Sign, WeightedPoint};
 use std::cmp::Ordering;
@@ -47,7 +49,7 @@ pub fn volume6<N: Number>(a: Point3, b: Point3, c: Point3, d: Point3) -> N {
 }
 
 /// S.x - D L(x) of the module's head.
-fn depth<N: Number>(t: &Corners, q: &WeightedPoint) -> N {
+pub(super) fn depth<N: Number>(t: &Corners, q: &WeightedPoint) -> N {
     let [u, v, w, x] = [t[1], t[2], t[3], *q].map(|p| vector::<N>(t[0].at, p.at));
     let lift = |x: &Vector<N>, p: &WeightedPoint| dot(x, x) - (N::of(p.weight) - N::of(t[0].weight));
     let minors = [cross(&v, &w), cross(&w, &u), cross(&u, &v)];
@@ -97,7 +99,7 @@ pub fn orient(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
 /// As `orient`, where doubles cannot tell.
 #[cold]
 fn exact_orient(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
-    sign_in_space!(volume6(a, b, c, d))
+    integers::volume6(a, b, c, d).unwrap_or_else(|| sign_in_space!(volume6(a, b, c, d)))
 }
 
 /// Position of q against the orthosphere of t: positive strictly inside (in conflict), zero on it.
@@ -111,7 +113,7 @@ pub fn side(t: &Corners, q: &WeightedPoint) -> Sign {
 /// As `side`, where doubles cannot tell.
 #[cold]
 pub fn exact_side(t: &Corners, q: &WeightedPoint) -> Sign {
-    sign_in_space!(depth(t, q))
+    integers::depth(t, q).unwrap_or_else(|| sign_in_space!(depth(t, q)))
 }
 
 /// Order of places by x, then y, then z; -0 equals 0. Coordinates are finite.
