@@ -1,6 +1,6 @@
 //! The end: counts, the digest, and the triangulation as data.
 
-use super::complex::{FIRST, INFINITE, NONE, id};
+use super::complex::{FIRST, INFINITE, id};
 use super::hidden::State;
 use super::replay::Replay;
 use crate::check::verdict::{Checked, Rule, broken, ensure};
@@ -13,9 +13,9 @@ pub fn check_points(replay: &Replay) -> Checked {
         match state {
             State::Unplaced | State::Free => return broken(Rule::Order, "every point placed", format!("{:?}", id(v))),
             State::Vertex => {
-                let c = replay.mesh.cell_at(v);
-                let held = c != NONE && replay.mesh.lives(c) && replay.mesh.cell(c).v.contains(&v);
-                ensure(held, Rule::Hidden, || ("every vertex in a cell", format!("{:?} in none", id(v))))?;
+                ensure(replay.mesh.holds(v), Rule::Hidden, || {
+                    ("every vertex in a cell", format!("{:?} in none", id(v)))
+                })?;
             }
             State::Hidden | State::Duplicate(_) | State::Removed => {}
         }

@@ -246,6 +246,12 @@ impl Complex {
         self.near[v as usize].cell
     }
 
+    /// Whether a vertex is in a cell.
+    pub fn holds(&self, v: u32) -> bool {
+        let c = self.near[v as usize].cell;
+        c != NONE && self.lives(c) && self.cells[c as usize].v.contains(&v)
+    }
+
     /// Notes a cell at a vertex.
     #[inline]
     pub fn set_cell_at(&mut self, v: u32, c: u32) {

@@ -5,7 +5,7 @@
 
 use super::complex::{Complex, FIRST, NONE, id};
 use crate::check::verdict::{Checked, Rule, broken};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// What became of a point; others are named by their numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,10 +29,10 @@ pub enum State {
 pub struct Points {
     /// By number less `FIRST`.
     states: Vec<State>,
-    /// The duplicates of a point, ascending; without empty lists.
-    pub duplicates: BTreeMap<u32, Vec<u32>>,
+    /// The duplicates of a point; without empty sets.
+    pub duplicates: BTreeMap<u32, BTreeSet<u32>>,
     /// Points that wait for the events that place them, in the order these must have.
-    pub free: Vec<u32>,
+    pub free: VecDeque<u32>,
     /// The first point that may still be unplaced.
     next: usize,
     lists: Option<Lists>,
@@ -41,21 +41,44 @@ pub struct Points {
 /// Hidden points by tetrahedron: linked lists.
 #[derive(Clone, Debug, Default)]
 struct Lists {
+    /// By tetrahedron.
     first: Vec<u32>,
-    next: Vec<u32>,
-    /// The tetrahedron of a hidden point.
-    place: Vec<u32>,
+    /// By number less `FIRST`.
+    links: Vec<Link>,
+}
+
+/// Where a hidden point stands.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    /// Its tetrahedron.
+    cell: u32,
+    before: u32,
+    next: u32,
 }
 
 impl Lists {
     fn attach(&mut self, c: u32, h: u32) {
-        let (c, k) = (c as usize, (h - FIRST) as usize);
-        self.first.resize(self.first.len().max(c + 1), NONE);
-        self.next.resize(self.next.len().max(k + 1), NONE);
-        self.place.resize(self.next.len(), NONE);
-        self.place[k] = c as u32;
-        self.next[k] = self.first[c];
-        self.first[c] = h;
+        let (cell, k) = (c as usize, (h - FIRST) as usize);
+        self.first.resize(self.first.len().max(cell + 1), NONE);
+        self.links.resize(self.links.len().max(k + 1), Link { cell: NONE, before: NONE, next: NONE });
+        let next = std::mem::replace(&mut self.first[cell], h);
+        self.links[k] = Link { cell: c, before: NONE, next };
+        if next != NONE {
+            self.links[(next - FIRST) as usize].before = h;
+        }
+    }
+
+    /// Takes a point out of its list. Says which tetrahedron that was.
+    fn detach(&mut self, h: u32) -> u32 {
+        let Link { cell, before, next } = self.links[(h - FIRST) as usize];
+        if next != NONE {
+            self.links[(next - FIRST) as usize].before = before;
+        }
+        match before {
+            NONE => self.first[cell as usize] = next,
+            before => self.links[(before - FIRST) as usize].next = next,
+        }
+        cell
     }
 
     fn take(&mut self, c: u32, out: &mut Vec<u32>) {
@@ -63,7 +86,7 @@ impl Lists {
         let mut h = std::mem::replace(first, NONE);
         while h != NONE {
             out.push(h);
-            h = self.next[(h - FIRST) as usize];
+            h = self.links[(h - FIRST) as usize].next;
         }
     }
 }
@@ -89,11 +112,15 @@ impl Points {
     pub fn set(&mut self, v: u32, state: State) {
         let k = (v - FIRST) as usize;
         if self.states[k] == State::Free {
-            self.free.retain(|&w| w != v);
+            if self.free.front() == Some(&v) {
+                self.free.pop_front();
+            } else {
+                self.free.retain(|&w| w != v);
+            }
         }
         self.states[k] = state;
         if state == State::Free {
-            self.free.push(v);
+            self.free.push_back(v);
         }
     }
 
@@ -104,7 +131,7 @@ impl Points {
 
     /// The point that must be placed next: the first that was set free, else the first unplaced one.
     pub fn due(&mut self) -> Option<u32> {
-        if let Some(&v) = self.free.first() {
+        if let Some(&v) = self.free.front() {
             return Some(v);
         }
         while self.states.get(self.next).is_some_and(|s| *s != State::Unplaced) {
@@ -148,10 +175,8 @@ impl Points {
     /// A hidden point is hidden no more, or another takes its place in the list.
     pub fn unhide(&mut self, h: u32, instead: Option<u32>) {
         let Some(lists) = &mut self.lists else { return };
-        let c = lists.place[(h - FIRST) as usize];
-        let mut held = Vec::new();
-        lists.take(c, &mut held);
-        held.into_iter().filter(|&v| v != h).chain(instead).for_each(|v| lists.attach(c, v));
+        let c = lists.detach(h);
+        instead.into_iter().for_each(|v| lists.attach(c, v));
     }
 
     /// The hidden points in cells that are no more.

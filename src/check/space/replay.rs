@@ -10,6 +10,7 @@ use super::predicates::orient;
 use crate::check::verdict::{Checked, Rule, broken, ensure};
 use crate::model::{Point3, Sign, Tetrahedron, VertexId};
 use crate::trace::{Apex, Bits, Event3};
+use std::collections::BTreeSet;
 
 /// The state of a replay.
 #[derive(Clone, Debug)]
@@ -22,7 +23,7 @@ pub struct Replay {
     pub apexes: u32,
     /// Whether points have weights of their own.
     pub weighted: bool,
-    /// A point that waits for the event that takes it out, or inserts it again with its new weight.
+    /// A point that waits for the event that takes it out, and its new weight if it is to come back.
     pub pending: Option<(u32, Option<f64>)>,
     ties: Ties,
     cavity: Cavity,
@@ -167,16 +168,7 @@ impl Replay {
     }
 
     fn insert(&mut self, p: u32, first: Tetrahedron, flood: &Bits) -> Checked {
-        let vertex = self.points.state(p) == State::Vertex;
-        let again = self.pending.take_if(|(v, weight)| *v == p && vertex && weight.is_some());
-        match again.and_then(|(_, weight)| weight) {
-            Some(weight) => {
-                let before = self.mesh.point(p).weight;
-                ensure(weight >= before, Rule::Order, || ("a vertex whose weight grows", format!("{weight:?}")))?;
-                self.mesh.set_weight(p, weight);
-            }
-            None => self.check_due(p)?,
-        }
+        self.check_due(p)?;
         if self.apexes > 0 {
             self.check_flat(&self.base(), p)?;
         }
@@ -188,10 +180,6 @@ impl Replay {
         if self.strict() {
             let last = self.cavity.last();
             ensure(last == Some(first), Rule::Canonical, || (format!("{last:?}"), format!("{first:?}")))?;
-        }
-        if again.is_some() {
-            let whole = self.cavity.flooded.iter().any(|f| f.cell.v.contains(&p));
-            ensure(whole, Rule::Flood, || ("all cells at the vertex destroyed", "none"))?;
         }
         let loose = self.points.loose(self.cavity.flooded.iter().map(|f| f.slot));
         self.cavity.star(&mut self.mesh, p, self.ties)?;
@@ -267,25 +255,28 @@ impl Replay {
         ensure(stands && self.mesh.point(p) == self.mesh.point(of), Rule::Duplicate, || {
             ("a vertex or hidden point of the same place and weight", format!("{:?}", id(of)))
         })?;
-        let mut rest = self.points.duplicates.remove(&p).unwrap_or_default();
+        let own = self.points.duplicates.remove(&p).unwrap_or_default();
         // The smaller id stands for the other and its duplicates.
-        let (stands, other) = (p.min(of), p.max(of));
-        if p < of {
-            rest.extend(self.take_place(of, p));
-        } else {
-            rest.extend(self.points.duplicates.remove(&of).unwrap_or_default());
+        let (stands, mut all, moved) = match p < of {
+            true => (p, own, self.take_place(of, p)?),
+            false => (of, self.points.duplicates.remove(&of).unwrap_or_default(), own),
+        };
+        for d in moved.into_iter().chain([p.max(of)]) {
+            self.points.set(d, State::Duplicate(stands));
+            all.insert(d);
         }
-        rest.push(other);
-        rest.sort_unstable();
-        rest.iter().for_each(|&d| self.points.set(d, State::Duplicate(stands)));
-        self.points.duplicates.insert(stands, rest);
+        self.points.duplicates.insert(stands, all);
         Ok(())
     }
 
     /// A point of the same place and weight takes the place of v, whose duplicates are given back.
-    fn take_place(&mut self, v: u32, by: u32) -> Vec<u32> {
+    fn take_place(&mut self, v: u32, by: u32) -> Checked<BTreeSet<u32>> {
+        ensure(self.mesh.point(v) == self.mesh.point(by), Rule::Duplicate, || {
+            ("points of the same place and weight", format!("{:?} and {:?}", id(v), id(by)))
+        })?;
         let state = self.points.state(v);
         if state == State::Vertex {
+            self.check_held(v)?;
             let mut star = Vec::new();
             self.mesh.visit_star(v, |c, cell| {
                 star.extend(cell.find(v).map(|k| (c, k)));
@@ -299,7 +290,12 @@ impl Replay {
             self.points.unhide(v, Some(by));
         }
         self.points.set(by, state);
-        self.points.duplicates.remove(&v).unwrap_or_default()
+        Ok(self.points.duplicates.remove(&v).unwrap_or_default())
+    }
+
+    /// That a vertex is in a cell. Where points have no weights, an insertion does not look whether a vertex is lost: the loss is found here, or at the end.
+    fn check_held(&self, v: u32) -> Checked {
+        ensure(self.mesh.holds(v), Rule::Hidden, || ("every vertex in a cell", format!("{:?} in none", id(v))))
     }
 
     /// That a point may be taken out now: the caller said so.
@@ -341,7 +337,7 @@ impl Replay {
 
     fn drop_duplicate(&mut self, of: u32, v: u32) {
         if let Some(list) = self.points.duplicates.get_mut(&of) {
-            list.retain(|&w| w != v);
+            list.remove(&v);
             if list.is_empty() {
                 self.points.duplicates.remove(&of);
             }
@@ -349,6 +345,7 @@ impl Replay {
     }
 
     fn remove_vertex(&mut self, v: u32, created: &[VertexId]) -> Checked {
+        self.check_held(v)?;
         self.points.keep_lists(&self.mesh)?;
         let star = take_star(&mut self.mesh, v);
         let loose = self.points.loose(star.iter().map(|(slot, _)| *slot));
@@ -375,12 +372,12 @@ impl Replay {
 
     fn succeed(&mut self, v: u32, by: u32) -> Checked {
         self.check_removable(v)?;
-        let heir = self.points.duplicates.get(&v).and_then(|list| list.first().copied());
+        let heir = self.points.duplicates.get(&v).and_then(|all| all.first().copied());
         ensure(heir == Some(by), Rule::Duplicate, || {
             (format!("the first duplicate, {:?}", heir.map(id)), format!("{:?}", id(by)))
         })?;
-        let mut rest = self.take_place(v, by);
-        rest.remove(0);
+        let mut rest = self.take_place(v, by)?;
+        rest.remove(&by);
         rest.iter().for_each(|&d| self.points.set(d, State::Duplicate(by)));
         if !rest.is_empty() {
             self.points.duplicates.insert(by, rest);
@@ -396,7 +393,7 @@ impl Replay {
             (format!("{expected:?} apexes"), format!("{}", apexes.len()))
         })?;
         let mut cells: Vec<[u32; 4]> = self.mesh.tetrahedra().map(|c| self.mesh.cell(c).v).collect();
-        if cells.is_empty() {
+        if self.is_empty() {
             cells.push([p, apex_number(0), apex_number(1), apex_number(2)]);
         } else {
             replace(&mut cells, apex_number(self.apexes - 1), p);
@@ -409,6 +406,7 @@ impl Replay {
         self.check_removable(v)?;
         let alone = !self.points.duplicates.contains_key(&v) && self.points.state(v) == State::Vertex;
         ensure(alone, Rule::Exists, || ("a vertex without duplicates", format!("{:?}", id(v))))?;
+        self.check_held(v)?;
         let mut cells: Vec<[u32; 4]> = self.mesh.tetrahedra().map(|c| self.mesh.cell(c).v).collect();
         let last = self.apexes == 3;
         let expected = if last { 0 } else { self.apexes + 1 };

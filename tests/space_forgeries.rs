@@ -1,0 +1,91 @@
+//! Traces of space whose ends are wrong though every number in them fits: what a plausible checker would let pass.
+
+use orthoball::check::{Options, Place, Rule, Verdict, verify};
+use orthoball::trace::{Reader, Record};
+
+/// Three points of a plane and a fourth, vertex 3, all of whose cells the flood of the fifth destroys: it is no corner of the rim and yet not hidden. Then the
+/// points span space, and the lost vertex is removed as if its star were empty.
+const LOST: &str = r#"
+{"format":"orthoball-trace","version":1,"algorithm":"regular","weighted":false,"permuted":false,"scale":0}
+{"start":0}
+{"vertex":[0.0,0.0,0.0]}
+{"i":0,"event":"raise","id":0,"apexes":["+x","+y","+z"]}
+{"vertex":[4.0,0.0,0.0]}
+{"i":1,"event":"raise","id":1,"apexes":["+y","+z"]}
+{"vertex":[0.0,4.0,0.0]}
+{"i":2,"event":"raise","id":2,"apexes":["+z"]}
+{"vertex":[1.0,1.0,0.0]}
+{"i":3,"event":"insert","id":3,"first":[0,1,-1,2],"flood":"0010000"}
+{"vertex":[1.0,1.25,0.0]}
+{"i":4,"event":"insert","id":4,"first":[1,2,-1,3],"flood":"11101010000"}
+{"vertex":[0.0,0.0,4.0]}
+{"i":5,"event":"raise","id":5,"apexes":[]}
+{"remove":3}
+{"i":6,"event":"remove","id":3,"created":[]}
+{"event":"end","counts":{"vertices":5,"hidden":0,"duplicates":0,"removed":1,"simplices":3},"mesh":"379321a45d3a9049fc23b126c0fc77b2ccb8bbfd2badbb768547f69fd38fb164","trace":"b32d36abfabbbc05d5040909f435d5e17ca638d8bedba186ec784f5d3be50e54"}
+"#;
+
+/// A lost vertex, as before, is removed at once: its old slot belongs to another star, and that is taken for its own.
+const EMPTIED: &str = r#"
+{"format":"orthoball-trace","version":1,"algorithm":"regular","weighted":false,"permuted":false,"scale":0}
+{"start":0}
+{"vertex":[0.0,0.0,0.0]}
+{"i":0,"event":"raise","id":0,"apexes":["+x","+y","+z"]}
+{"vertex":[1.0,2.0,4.0]}
+{"i":1,"event":"raise","id":1,"apexes":["+x","+y"]}
+{"vertex":[2.0,-1.0,1.0]}
+{"i":2,"event":"raise","id":2,"apexes":["+x"]}
+{"vertex":[0.75,0.25,1.25]}
+{"i":3,"event":"insert","id":3,"first":[0,1,-1,2],"flood":"0010000"}
+{"vertex":[1.0,0.125,1.375]}
+{"i":4,"event":"insert","id":4,"first":[1,2,-1,3],"flood":"11101010000"}
+{"remove":3}
+{"i":5,"event":"remove","id":3,"created":[]}
+{"vertex":[-1.0,-1.0,-1.0]}
+{"i":6,"event":"raise","id":5,"apexes":[]}
+{"event":"end","counts":{"vertices":1,"hidden":0,"duplicates":0,"removed":1,"simplices":1},"mesh":"67daf9d84806ecf1bc9b6155e148e071988d9c6c437b86b77a822ca1e28acfd9","trace":"9833f056f5c0805baa450d68395f59c1c5a702c5f4954ec3cc74417f8f9af2b5"}
+"#;
+
+/// A vertex with a duplicate grows heavier where it stands; its old duplicate, of the old weight, succeeds it later.
+const HEAVIER: &str = r#"
+{"format":"orthoball-trace","version":1,"algorithm":"regular","weighted":true,"permuted":false,"scale":0}
+{"start":0}
+{"vertex":[0.0,0.0,0.0]}
+{"i":0,"event":"raise","id":0,"apexes":["+x","+y","+z"]}
+{"vertex":[4.0,0.0,0.0]}
+{"i":1,"event":"raise","id":1,"apexes":["+y","+z"]}
+{"vertex":[0.0,4.0,0.0]}
+{"i":2,"event":"raise","id":2,"apexes":["+z"]}
+{"vertex":[0.0,0.0,4.0]}
+{"i":3,"event":"raise","id":3,"apexes":[]}
+{"vertex":[1.0,1.0,1.0]}
+{"i":4,"event":"insert","id":4,"first":[0,1,2,3],"flood":"0000"}
+{"vertex":[1.0,1.0,1.0]}
+{"i":5,"event":"duplicate","id":5,"of":4}
+{"weight":3.0,"id":4}
+{"i":6,"event":"insert","id":4,"first":[1,2,4,3],"flood":"1101000"}
+{"vertex":[1.0,1.0,0.75]}
+{"i":7,"event":"hide","id":6,"cell":[0,1,2,4]}
+{"remove":4}
+{"i":8,"event":"succeed","id":4,"by":5}
+{"event":"end","counts":{"vertices":5,"hidden":1,"duplicates":0,"removed":1,"simplices":4},"mesh":"49e087289f48e25c019fb51977aefc3e8ab92c0bcd361e5dc858ff98782c59c9","trace":"24bd327b1efeae609559dfc2bf1b5534e7c9e6261cf0988b84759f420f3f8857"}
+"#;
+
+#[test]
+fn forgeries_are_refused_where_they_go_wrong() {
+    for (name, text, event, rule) in [
+        ("a lost vertex removed later", LOST, 6, Rule::Hidden),
+        ("a lost vertex removed at once", EMPTIED, 5, Rule::Hidden),
+        ("an heir of another weight", HEAVIER, 6, Rule::Order),
+    ] {
+        let records: Vec<Record> = Reader::new(text.trim_start().as_bytes())
+            .collect::<Result<_, _>>()
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        for strict in [false, true] {
+            match verify(&records, Options { strict, digests: false }) {
+                Verdict::Rejected(r) => assert_eq!((r.event, r.rule), (Place::Event(event), rule), "{name}: {r:?}"),
+                other => panic!("{name}: {other:?}"),
+            }
+        }
+    }
+}
