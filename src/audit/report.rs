@@ -217,6 +217,18 @@ impl<C: PartialEq, W> Report<C, W> {
         self.claims.iter().all(|c| c.verdict != Verdict::Violated)
     }
 
+    /// Violated if some claim is; else unchecked if that is all that can be said, or may be said of none because each was `named`; else holds.
+    pub fn verdict(&self, named: bool) -> Verdict {
+        let unchecked = |c: &ClaimReport<C, W>| c.verdict == Verdict::Unchecked;
+        if !self.passed() {
+            Verdict::Violated
+        } else if self.claims.iter().all(unchecked) || (named && self.claims.iter().any(unchecked)) {
+            Verdict::Unchecked
+        } else {
+            Verdict::Holds
+        }
+    }
+
     /// The report about a claim, if it was asked for.
     pub fn claim(&self, claim: C) -> Option<&ClaimReport<C, W>> {
         self.claims.iter().find(|c| c.claim == claim)

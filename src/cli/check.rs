@@ -5,7 +5,7 @@ use super::files::read_any_mesh;
 use super::input::load;
 use super::{Answer, Failure, Status, data, talk};
 use crate::arith::angle::rho2_from_min_angle;
-use crate::audit::{Claim, Named, Options, Subject, audit, space};
+use crate::audit::{Claim, Named, Options, Subject, Verdict, audit, space};
 use crate::io::{AnyMesh, ForeignMesh, ForeignMesh3};
 use crate::model::Fill;
 use serde_json::json;
@@ -22,7 +22,7 @@ const EVERYDAY_IN_SPACE: [space::Claim; 5] = {
     [Valid, Orientation, Delaunay, Quality, Topology]
 };
 
-/// Audits a mesh. Exit code 1 if a claim is violated.
+/// Audits a mesh. Exit code 1 if a claim is violated, or if a claim that was named, or every one, is unchecked.
 pub fn run(args: &CheckArgs) -> Answer {
     match read_any_mesh(&args.mesh, args.column.column().as_ref())? {
         AnyMesh::Plane(mesh) => plane(args, &mesh),
@@ -57,10 +57,10 @@ fn in_space(args: &CheckArgs, mesh: &ForeignMesh3) -> Answer {
     };
     let begun = Instant::now();
     let report = space::audit(&subject, &space::Options { claims: &claims, radius_edge: args.radius_edge });
-    let (passed, seconds) = (report.passed(), begun.elapsed().as_secs_f64());
+    let (verdict, seconds) = (report.verdict(!args.claims.is_empty()), begun.elapsed().as_secs_f64());
     if args.json {
         data(json!({
-            "verdict": if passed { "holds" } else { "violated" },
+            "verdict": verdict,
             "vertices": mesh.points.len(), "cells": mesh.tetrahedra.len(),
             "claims": report.claims, "seconds": seconds,
         }))?;
@@ -68,7 +68,7 @@ fn in_space(args: &CheckArgs, mesh: &ForeignMesh3) -> Answer {
         data(report.to_string().trim_end())?;
         talk(format_args!("time      {seconds:.3} s, reading apart"));
     }
-    Ok(if passed { Status::Well } else { Status::No })
+    Ok(if verdict == Verdict::Holds { Status::Well } else { Status::No })
 }
 
 fn plane(args: &CheckArgs, mesh: &ForeignMesh) -> Answer {
@@ -101,17 +101,17 @@ fn plane(args: &CheckArgs, mesh: &ForeignMesh) -> Answer {
     let no_lines = crate::model::Lines::default();
     let input = loaded.as_ref().map(|l| (&l.prepared.pslg, &no_lines));
     let report = audit(&subject, &Options { claims: &claims, input, within: args.within, rho2 });
-    let passed = report.passed();
+    let verdict = report.verdict(!args.claims.is_empty());
     if args.json {
         data(json!({
-            "verdict": if passed { "holds" } else { "violated" },
+            "verdict": verdict,
             "vertices": mesh.points.len(), "triangles": mesh.triangles.len(),
             "claims": report.claims,
         }))?;
     } else {
         data(report.to_string().trim_end())?;
     }
-    Ok(if passed { Status::Well } else { Status::No })
+    Ok(if verdict == Verdict::Holds { Status::Well } else { Status::No })
 }
 
 /// The claims of these names among all; the everyday ones if none is named.

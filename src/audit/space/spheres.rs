@@ -8,7 +8,7 @@
 //! So in a convex region the tests across facets suffice; elsewhere the vertices in the sphere of each cell at the border are looked up. Ties: with the lifts
 //! raised by infinitesimals the same holds.
 
-use super::border::Border;
+use super::border::{Border, budget};
 use super::complex::{BATCH, Complex};
 use super::isolated::Isolated;
 use super::report::{Claim, ClaimReport};
@@ -39,8 +39,10 @@ pub(super) fn empty(
         return None;
     }
     // Without a border the mesh is no complex, and one conflict is as good as another.
-    if let Some(border) = border.filter(|b| !b.is_convex && report.verdict == Verdict::Holds) {
-        spheres.beyond_border(border, &mut report);
+    if let Some(border) = border.filter(|b| !b.is_convex && report.verdict == Verdict::Holds)
+        && !spheres.beyond_border(border, &mut report)
+    {
+        return Some(ClaimReport::unchecked(claim, "too many vertices are close to the spheres at the border"));
     }
     spheres.left_out(isolated, &mut report);
     Some(report.conclude(match claim {
@@ -119,13 +121,13 @@ impl<'a> Spheres<'a> {
         true
     }
 
-    /// The cells at the border against vertices beyond it; of each cell, one vertex is told.
-    fn beyond_border(&self, border: &Border<'_>, report: &mut ClaimReport) {
+    /// The cells at the border against vertices beyond it; of each cell, one vertex is told. False if there are too many to be looked at.
+    fn beyond_border(&self, border: &Border<'_>, report: &mut ClaimReport) -> bool {
         let vertices: Vec<u32> = (0u32..).zip(self.complex.used()).filter(|v| v.1).map(|v| v.0).collect();
         let place = |i: usize| self.sites[vertices[i] as usize];
         let tree = Tree::new(vertices.len(), |i| [place(i).at; 2]);
         let heaviest = vertices.iter().fold(f64::NEG_INFINITY, |m, &v| m.max(self.sites[v as usize].weight));
-        let mut last = BORDER;
+        let (mut last, mut budget) = (BORDER, budget(border.facets.len() + vertices.len()));
         for (&slot, facet) in border.slots.iter().zip(&border.facets) {
             let i = slot / 4;
             if i == last {
@@ -134,23 +136,33 @@ impl<'a> Spheres<'a> {
             let t = self.corners(i);
             let [a, b, c] = facet.map(|v| self.complex.at(v));
             let ball = Ball::around(&t, heaviest);
+            // A box that is beyond the facet has a corner there.
+            let is_beyond = |q: Point3| orient(a, b, c, q) == Sign::Negative;
+            let reaches_beyond = |low: Point3, high: Point3| {
+                let corner = |k: usize| [0, 1, 2].map(|i| if k >> i & 1 == 0 { low[i] } else { high[i] });
+                (0..8).any(|k| is_beyond(Point3::from_array(corner(k))))
+            };
             let mut found = None;
             tree.visit(
-                |low, high| ball.may_meet(low, high),
+                |low, high| ball.may_meet(low, high) && reaches_beyond(low, high),
                 |k| {
+                    budget = budget.saturating_sub(1);
                     let q = place(k as usize);
-                    let beyond = ball.may_meet(q.at, q.at) && orient(a, b, c, q.at) == Sign::Negative;
-                    if beyond && self.conflicts(side(&t, &q), &t, &q) {
+                    if ball.may_meet(q.at, q.at) && is_beyond(q.at) && self.conflicts(side(&t, &q), &t, &q) {
                         found = Some(vertices[k as usize]);
                     }
-                    found.is_none()
+                    found.is_none() && budget > 0
                 },
             );
+            if budget == 0 {
+                return report.verdict == Verdict::Violated;
+            }
             if let Some(v) = found {
                 self.witness(i, v, report);
                 last = i;
             }
         }
+        true
     }
 
     /// Points that are no vertex, against the cells they lie in.

@@ -517,3 +517,41 @@ fn claimed_ratios_are_decided_exactly() {
     assert_eq!(said(1.5), Verdict::Violated);
     assert_eq!(said(1.5f64.next_up()), Verdict::Holds);
 }
+
+/// Products of five differences underflow long before differences do.
+#[test]
+fn conflicts_of_any_size_are_found() {
+    let points = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [1.0, 1.0, 2.0], [1.0, 1.0, -2.0]];
+    let two = [[0, 1, 2, 3], [0, 2, 1, 4]];
+    let three = [[3, 4, 0, 1], [3, 4, 1, 2], [3, 4, 2, 0]];
+    let big = [[0.5, 0.5, 0.5], [1.0, 0.5, 0.5], [0.5, 1.0, 0.5], [0.5, 0.5, 1.0]];
+    let verdict = |cells: &[[u32; 4]], k: i32| {
+        let scale = 2f64.powi(-k);
+        let p: Places = points.iter().map(|p| p.map(|x| x * scale)).chain(big).collect();
+        let cells: Cells = cells.iter().copied().chain([[5, 6, 7, 8]]).collect();
+        run(&p, &cells, Claim::Delaunay).verdict
+    };
+    for k in [10, 100, 199, 200, 201, 215, 216, 220, 300, 340] {
+        let verdicts = [verdict(&two, k), verdict(&three, k)];
+        assert!(verdicts.contains(&Verdict::Holds) && verdicts.contains(&Verdict::Violated), "2^-{k}: {verdicts:?}");
+    }
+}
+
+/// Parts side by side are told apart by rays across the row; a block of parts takes a bounded number of steps.
+#[test]
+fn many_parts_are_examined() {
+    let corner = |at: [f64; 3]| {
+        [[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]].map(|p| [0, 1, 2].map(|k| p[k] + at[k]))
+    };
+    for axis in 0..3 {
+        let place = |i: usize| [0, 1, 2].map(|k| if k == axis { i as f64 } else { 0.0 });
+        let p: Places = (0..3000).flat_map(|i| corner(place(i))).collect();
+        let cells: Cells = (0..3000).map(|i| [0, 1, 2, 3].map(|k| 4 * i + k)).collect();
+        assert_eq!(run(&p, &cells, Claim::Valid).verdict, Verdict::Holds, "axis {axis}");
+        // One more inside the first.
+        let inner = corner([0.0; 3]).map(|p| p.map(|x| 0.1 + 0.2 * x));
+        let p: Places = p.into_iter().chain(inner).collect();
+        let cells: Cells = cells.into_iter().chain([[12000, 12001, 12002, 12003]]).collect();
+        assert_eq!(run(&p, &cells, Claim::Valid).verdict, Verdict::Violated, "axis {axis}");
+    }
+}

@@ -115,10 +115,11 @@ fn is_unrounded(t: &Corners, q: &WeightedPoint) -> bool {
         note(o.at.z, p.at.z, (&mut low, &mut high));
         note(o.weight, p.weight, (&mut weights.0, &mut weights.1));
     }
-    // Exponents are biased by 1023.
+    // Exponents are biased by 1023. The fifth power of u must not underflow, nor 2^53 of them overflow.
+    exact &= (1023 - 200..1023 + 190).contains(&low);
     let unit2 = 2 * (low - 1023) + 1023;
     let light = weights.1 == i32::MIN || (weights.0 >= unit2 && weights.1 - unit2 < 20);
-    exact && low != i32::MAX && high - low < 9 && light
+    exact && high - low < 9 && light
 }
 
 /// Whether c and e, in one plane with a and b, lie strictly on different sides of the line ab; a, b, c are not collinear.

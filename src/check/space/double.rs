@@ -54,6 +54,14 @@ fn two_product(a: f64, b: f64) -> [f64; 2] {
     [product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2]
 }
 
+impl Double {
+    /// Whether it is exactly zero.
+    #[inline]
+    fn is_zero(self) -> bool {
+        self.high == 0.0 && self.low == 0.0 && self.error == 0.0
+    }
+}
+
 impl Add for Double {
     type Output = Double;
     #[inline]
@@ -82,12 +90,14 @@ impl Mul for Double {
     type Output = Double;
     #[inline]
     fn mul(self, other: Double) -> Double {
+        // What the other stands for is finite: nothing of it is left.
+        if self.is_zero() || other.is_zero() {
+            return Double { high: 0.0, low: 0.0, error: 0.0 };
+        }
         let [product, rest] = two_product(self.high, other.high);
         let inherited = self.high.abs() * other.error + other.high.abs() * self.error + self.error * other.error;
         if self.low == 0.0 && other.low == 0.0 {
-            let exact = self.error == 0.0
-                && other.error == 0.0
-                && (self.high == 0.0 || other.high == 0.0 || SAFE.contains(&product.abs()));
+            let exact = self.error == 0.0 && other.error == 0.0 && SAFE.contains(&product.abs());
             return Double { high: product, low: rest, error: if exact { 0.0 } else { inherited + TINY } };
         }
         let [high, low] = quick_two_sum(product, rest + (self.high * other.low + self.low * other.high));
@@ -172,5 +182,17 @@ mod tests {
             zeros += usize::from(exact == Sign::Zero);
         }
         assert!(zeros > 100 && open < 2000, "{zeros} zeros, {open} open");
+    }
+
+    /// Zero times a product that was rounded is zero: four points with the same x.
+    #[test]
+    fn zeros_absorb() {
+        let point = |y: f64, z: f64| crate::model::Point3::new(0.1, y, z);
+        let third = 1.0 / 3.0;
+        let [a, b, c, d] = [point(third, 0.7), point(-0.9, third), point(0.3, 0.1), point(0.77, -third)];
+        let volume = crate::check::space::predicates::volume6::<Double>(a, b, c, d);
+        assert_eq!(volume.sign(), Some(Sign::Zero));
+        let far = crate::model::Point3::new(0.1f64.next_up(), 0.2, 0.3);
+        assert_ne!(crate::check::space::predicates::volume6::<Double>(a, b, c, far).sign(), Some(Sign::Zero));
     }
 }
