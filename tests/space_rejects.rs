@@ -3,9 +3,10 @@
 #![cfg(feature = "generators")]
 
 use orthoball::arith::FastKernel;
+use orthoball::audit::space::{Claim, Subject, audit};
 use orthoball::check::{Checker, Options, Verdict};
-use orthoball::generators::{Edit, SpaceFamily, SplitMix64, WeightFamily, edits, weighted_points};
-use orthoball::model::{PointSet3, VertexId, WeightedPoint};
+use orthoball::generators::{Draw, Edit, SpaceFamily, SplitMix64, WeightFamily, edits, weighted_points};
+use orthoball::model::{Point3, PointSet3, PointState, Triangulation3, VertexId, WeightedPoint};
 use orthoball::refine::regular::{Certificate, Session, triangulate3};
 use orthoball::trace::{Apex, Bits, Event3, INFINITE, Record, Record3, Recorder, apex_id};
 use std::collections::BTreeMap;
@@ -323,4 +324,66 @@ fn changed_points_are_refused_by_the_digest() {
         }
     }
     assert!(tried > 2_000, "{tried}");
+}
+
+/// Codes with a bit flipped or two, of all lengths nearby: one of them may be that of another cavity.
+fn varied(flood: &Bits, draw: &mut SplitMix64) -> Vec<Bits> {
+    let mut bits: Vec<bool> = (0..flood.len()).map(|k| flood.get(k) == Some(true)).collect();
+    // What the last bits say changes no other facet's.
+    let from = if draw.below(2) == 0 { 0 } else { flood.len().saturating_sub(7) };
+    let flips: Vec<u32> = (0..=draw.below(2)).map(|_| from + draw.below(flood.len() - from)).collect();
+    flips.into_iter().for_each(|k| bits[k as usize] ^= true);
+    let lengths = bits.len().saturating_sub(8).max(1)..bits.len() + 9;
+    lengths.map(|n| bits.iter().copied().chain(std::iter::repeat(false)).take(n).collect()).collect()
+}
+
+/// Whether the audit, which looks at the finished mesh alone, finds the triangulation of the points placed so far to be one.
+fn is_sound(t: &Triangulation3) -> bool {
+    let placed: Vec<usize> = (0..t.points.len()).filter(|&k| t.states[k] != PointState::Removed).collect();
+    let points: Vec<Point3> = placed.iter().map(|&k| t.points[k].at).collect();
+    let weights: Vec<f64> = placed.iter().map(|&k| t.points[k].weight).collect();
+    // Vertices of cells are placed.
+    let renamed = |v: VertexId| VertexId(placed.binary_search(&v.index()).expect("a point placed") as u32);
+    let cells: Vec<[VertexId; 4]> = t.simplices().map(|s| [0, 1, 2, 3].map(|k| renamed(s[k]))).collect();
+    let claims = [Claim::Valid, Claim::Orientation, Claim::Regular, Claim::Hull];
+    let subject = Subject { points: &points, weights: &weights, cells: &cells, ..Subject::default() };
+    let report = audit(&subject, &orthoball::audit::space::Options { claims: &claims, radius_edge: None });
+    let in_cells = |v: usize| t.simplices.contains(&VertexId(v as u32));
+    let states = placed.iter().all(|&k| (t.states[k] == PointState::Vertex) == in_cells(k));
+    states && report.claims.iter().all(|c| c.verdict == orthoball::audit::Verdict::Holds)
+}
+
+/// Plain verification leaves ties open. Whatever else it accepts of an insertion must be a triangulation.
+#[test]
+fn what_plain_verification_accepts_is_regular() {
+    let plain = Options { strict: false, digests: false };
+    let mut draw = SplitMix64(77);
+    let (mut tried, mut accepted) = (0, 0);
+    for seed in 0..60u64 {
+        let mut family = SpaceFamily::ALL[seed as usize / 2 % SpaceFamily::ALL.len()];
+        let mut weights = WeightFamily::ALL[seed as usize / 6 % WeightFamily::ALL.len()];
+        if seed % 2 == 0 {
+            (family, weights) = (SpaceFamily::Grid, WeightFamily::Zero);
+        }
+        let points = weighted_points(family, weights, 18, &mut SplitMix64(seed));
+        for trace in traces(&points) {
+            let mut checker = Checker::new(plain);
+            for record in &trace {
+                if let Record::Space(Record3::Event(Event3::Insert { id, first, flood })) = record {
+                    let solid = checker.triangulation().is_some_and(|t| t.dimension == Some(3));
+                    for flood in (0..8).flat_map(|_| varied(flood, &mut draw)).filter(|f| solid && f != flood) {
+                        let mut other = checker.clone();
+                        tried += 1;
+                        let event = Record3::Event(Event3::Insert { id: *id, first: *first, flood });
+                        if other.push(&Record::Space(event)).is_ok() {
+                            accepted += 1;
+                            assert!(is_sound(&other.triangulation().expect("of space")), "{record:?}");
+                        }
+                    }
+                }
+                checker.push(record).expect("a true trace");
+            }
+        }
+    }
+    assert!(tried > 20_000 && accepted > 20, "{accepted} of {tried}");
 }

@@ -6,6 +6,7 @@
 
 use super::glue::FACETS;
 use super::predicates::{Corners, orient};
+use super::view::grain;
 use crate::model::{Point3, Tetrahedron, VertexId, WeightedPoint, canonical_tetrahedron};
 
 /// The infinite vertex.
@@ -14,6 +15,8 @@ pub const INFINITE: u32 = 3;
 pub const FIRST: u32 = 4;
 /// No cell, no vertex, no facet. As first corner: nothing is in this slot.
 pub const NONE: u32 = u32::MAX;
+/// Marks the first corner of a cell that is destroyed: its number and this.
+const MARK: u32 = 1 << 31;
 
 /// The number of a vertex named in a trace.
 pub fn number(v: VertexId) -> u32 {
@@ -79,6 +82,7 @@ pub struct Complex {
     seen: Vec<u32>,
     stamp: u32,
     stack: Vec<u32>,
+    grain: i32,
 }
 
 impl Default for Complex {
@@ -92,6 +96,7 @@ impl Default for Complex {
             seen: Vec::new(),
             stamp: 0,
             stack: Vec::new(),
+            grain: grain(far),
         }
     }
 }
@@ -99,6 +104,7 @@ impl Default for Complex {
 impl Complex {
     /// Adds a point and says its number.
     pub fn add_point(&mut self, p: WeightedPoint) -> u32 {
+        self.grain = self.grain.min(grain(p));
         self.points.push(p);
         self.near.push(Near { cell: NONE, local: 0 });
         self.points.len() as u32 - 1
@@ -124,11 +130,18 @@ impl Complex {
     /// Puts an apex in its place.
     pub fn set_apex(&mut self, v: u32, at: Point3) {
         self.points[v as usize] = WeightedPoint::unweighted(at);
+        self.grain = self.grain.min(grain(self.points[v as usize]));
+    }
+
+    /// All points so far are multiples of 2 to this power, weights of its square.
+    pub fn grain(&self) -> i32 {
+        self.grain
     }
 
     /// Gives a point another weight.
     pub fn set_weight(&mut self, v: u32, weight: f64) {
         self.points[v as usize].weight = weight;
+        self.grain = self.grain.min(grain(self.points[v as usize]));
     }
 
     /// A cell.
@@ -151,7 +164,7 @@ impl Complex {
     /// Whether a cell is in this slot.
     #[inline]
     pub fn lives(&self, c: u32) -> bool {
-        self.cells[c as usize].v[0] != NONE
+        self.cells[c as usize].v[0] < MARK
     }
 
     /// All cells.
@@ -207,6 +220,26 @@ impl Complex {
         let cell = self.cells[c as usize];
         self.cells[c as usize].v[0] = NONE;
         cell
+    }
+
+    /// Marks a cell as destroyed, or does not. Its slot is not used again before `release`.
+    #[inline]
+    pub fn mark(&mut self, c: u32, destroyed: bool) {
+        self.cells[c as usize].v[0] |= u32::from(destroyed) << 31;
+    }
+
+    /// What a cell marked as destroyed was.
+    #[inline]
+    pub fn marked(&self, c: u32) -> Cell {
+        let mut cell = self.cells[c as usize];
+        cell.v[0] &= !MARK;
+        cell
+    }
+
+    /// Marks a cell as destroyed, and says what it was.
+    pub fn destroy(&mut self, c: u32) -> Cell {
+        self.mark(c, true);
+        self.marked(c)
     }
 
     /// Lets the slot of a cell that was taken out be used again.

@@ -18,7 +18,9 @@
 //! | `glue` | which cells share a facet |
 //! | `complex` | cells and links |
 //! | `certificate` | a finished triangulation |
+//! | `flood` | which cells an insertion destroys |
 //! | `insert`, `fill` | insertion and removal |
+//! | `view` | an insertion as the new vertex sees it |
 //! | `hidden` | what became of each point |
 //! | `replay` | events |
 //! | `claims` | counts, the digest, the triangulation as data |
@@ -31,12 +33,14 @@ mod claims;
 mod complex;
 pub(crate) mod double;
 mod fill;
+mod flood;
 pub mod glue;
 mod hidden;
 mod insert;
 mod integers;
 pub mod predicates;
 mod replay;
+mod view;
 
 #[cfg(test)]
 mod tests;

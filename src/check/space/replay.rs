@@ -176,19 +176,17 @@ impl Replay {
         let Some(c) = self.mesh.find(tuple).filter(|&c| self.mesh.cell(c).tuple() == first) else {
             return broken(Rule::Exists, "a cell of the complex", format!("{first:?}"));
         };
-        self.cavity.flood(&mut self.mesh, c, tuple, flood)?;
+        self.cavity.flood.run(&mut self.mesh, c, tuple, flood)?;
         if self.strict() {
-            let last = self.cavity.last();
+            let last = self.cavity.flood.last();
             ensure(last == Some(first), Rule::Canonical, || (format!("{last:?}"), format!("{first:?}")))?;
         }
-        let loose = self.points.loose(self.cavity.flooded.iter().map(|f| f.slot));
+        let loose = self.points.loose(self.cavity.flood.cells.iter().map(|f| f.slot));
         self.cavity.star(&mut self.mesh, p, self.ties)?;
         let mut lost = Vec::new();
-        if self.weighted {
-            self.cavity.check_lost(&mut self.mesh, p, self.ties, |v| lost.push(v))?;
-        }
+        self.cavity.check_lost(&self.mesh, p, self.ties, &mut lost)?;
         if self.apexes > 0 {
-            self.check_apexes(self.cavity.made())?;
+            self.check_apexes(self.cavity.made().iter().copied())?;
         }
         self.points.set(p, State::Vertex);
         lost.iter().for_each(|&v| self.points.set(v, State::Hidden));
@@ -293,7 +291,7 @@ impl Replay {
         Ok(self.points.duplicates.remove(&v).unwrap_or_default())
     }
 
-    /// That a vertex is in a cell. Where points have no weights, an insertion does not look whether a vertex is lost: the loss is found here, or at the end.
+    /// That a vertex is in a cell.
     fn check_held(&self, v: u32) -> Checked {
         ensure(self.mesh.holds(v), Rule::Hidden, || ("every vertex in a cell", format!("{:?} in none", id(v))))
     }

@@ -1,0 +1,199 @@
+//! The cells that an insertion destroys, as its flood code names them, and the rim around them.
+//!
+//! Each facet of the flood is looked at once, and what a bit says cannot be foreseen. So nothing here waits for a bit: a facet is offered to two lists, cells to come and facets of the
+//! rim, one of which keeps it, and cells are marked as destroyed, or not, by the same instruction.
+//!
+//! A cell entered through a facet has the tuple of the cell before, the corner it does not share replaced by its own. Crossing a facet turns the orientation over, so that
+//! tuples are positive and negative in turn, the first cell's being positive.
+
+use super::complex::{Cell, Complex, NONE};
+use super::glue::FACETS;
+use crate::check::verdict::{Checked, Rule, broken, ensure};
+use crate::model::Tetrahedron;
+use crate::trace::Bits;
+
+/// A list that takes or leaves what it is offered, without a branch.
+#[derive(Clone, Debug, Default)]
+pub struct Sieve<T> {
+    items: Vec<T>,
+    count: usize,
+}
+
+impl<T: Copy + Default> Sieve<T> {
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// Makes room for so many offers.
+    #[inline]
+    pub fn expect(&mut self, offers: usize) {
+        if self.items.len() < self.count + offers {
+            self.items.resize(2 * (self.count + offers), T::default());
+        }
+    }
+
+    /// An offer, of those expected.
+    #[inline]
+    pub fn offer(&mut self, item: T, taken: bool) {
+        self.items[self.count] = item;
+        self.count += usize::from(taken);
+    }
+
+    /// What was taken.
+    #[inline]
+    pub fn taken(&self) -> &[T] {
+        &self.items[..self.count]
+    }
+}
+
+/// A cell of the cavity.
+#[derive(Clone, Copy, Debug)]
+pub struct Flooded {
+    /// Where it was.
+    pub slot: u32,
+    /// Whether its tuple is positively oriented.
+    positive: bool,
+    /// Its tuple, in the order of the flood.
+    v: [u32; 4],
+    /// The facets beyond those opposite the members.
+    beyond: [u32; 4],
+    /// The positions of the members among the vertices.
+    local: [u32; 4],
+}
+
+impl Flooded {
+    /// What it was.
+    pub fn cell(&self) -> Cell {
+        let turn = |[a, b, c, d]: [u32; 4]| if self.positive { [a, b, c, d] } else { [b, a, c, d] };
+        Cell { v: turn(self.v), beyond: turn(self.beyond) }
+    }
+}
+
+/// A facet by which the flood enters a cell.
+#[derive(Clone, Copy, Debug, Default)]
+struct Door {
+    /// The facet, as a facet of the cell entered.
+    through: u32,
+    /// The cell before.
+    from: u32,
+    /// Which member of its tuple is opposite.
+    position: u32,
+}
+
+/// A facet of the rim.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Side {
+    /// Its corners, as positions among the vertices, turned such that with a point of the cavity they are positive.
+    pub corners: [u32; 3],
+    /// The corner opposite of the cell destroyed.
+    pub inner: u32,
+    /// The facet beyond.
+    pub outer: u32,
+}
+
+/// A flood. Lists are kept to be used again.
+#[derive(Clone, Debug, Default)]
+pub struct Flood {
+    /// The cells destroyed, in order.
+    pub cells: Vec<Flooded>,
+    /// The rim.
+    pub sides: Sieve<Side>,
+    /// All vertices of the cells.
+    pub vertices: Sieve<u32>,
+    doors: Sieve<Door>,
+}
+
+impl Flood {
+    /// Takes the cells that a flood code names out of the complex. `first` is that of the tuple.
+    pub fn run(&mut self, mesh: &mut Complex, first: u32, tuple: [u32; 4], bits: &Bits) -> Checked {
+        self.cells.clear();
+        self.sides.clear();
+        self.vertices.clear();
+        self.doors.clear();
+        let cell = mesh.destroy(first);
+        let local = tuple.map(|v| self.number(mesh, v));
+        let beyond = tuple.map(|v| cell.beyond[place(&cell, v)]);
+        self.cells.push(Flooded { slot: first, positive: true, v: tuple, beyond, local });
+        let (mut at, mut read) = (0, 0);
+        loop {
+            read = self.look_around(mesh, at, bits, read);
+            let Some(&door) = self.doors.taken().get(at) else { break };
+            self.enter(mesh, door);
+            at += 1;
+        }
+        ensure(read == bits.len(), Rule::Flood, || {
+            ("a bit for each facet of the flood", format!("{} bits for {read} facets", bits.len()))
+        })?;
+        // A cell that one facet was to stop at may have been entered through another.
+        let stops = self.sides.taken().iter().all(|side| mesh.lives(side.outer >> 2));
+        ensure(stops, Rule::Flood, || ("a flood that stops where it says", "a cell beyond its rim destroyed"))?;
+        if self.sides.taken().is_empty() {
+            return broken(Rule::Flood, "a cavity with a rim", "none");
+        }
+        Ok(())
+    }
+
+    /// Reads what becomes of the facets of a cell. Bits beyond the end are 0.
+    #[inline]
+    fn look_around(&mut self, mesh: &mut Complex, at: usize, bits: &Bits, mut read: u32) -> u32 {
+        let here = self.cells[at];
+        self.doors.expect(4);
+        self.sides.expect(4);
+        for (k, facet) in FACETS.iter().enumerate() {
+            let outer = here.beyond[k];
+            let open = mesh.lives(outer >> 2);
+            let bit = bits.get(read).unwrap_or(false);
+            read += u32::from(open);
+            self.doors.offer(Door { through: outer, from: at as u32, position: k as u32 }, open & bit);
+            mesh.mark(outer >> 2, open & bit);
+            let [x, y, z] = facet.map(|i| here.local[i]);
+            let corners = if here.positive { [x, y, z] } else { [y, x, z] };
+            self.sides.offer(Side { corners, inner: here.local[k], outer }, open & !bit);
+        }
+        read
+    }
+
+    fn enter(&mut self, mesh: &mut Complex, door: Door) {
+        let slot = door.through >> 2;
+        let cell = mesh.marked(slot);
+        let own = cell.v[(door.through & 3) as usize];
+        let number = self.number(mesh, own);
+        let from = &self.cells[door.from as usize];
+        let replaced =
+            |old: &[u32; 4], new| [0, 1, 2, 3].map(|k| if k == door.position { new } else { old[k as usize] });
+        let (v, local) = (replaced(&from.v, own), replaced(&from.local, number));
+        let beyond = v.map(|w| cell.beyond[place(&cell, w)]);
+        self.cells.push(Flooded { slot, positive: !from.positive, v, beyond, local });
+    }
+
+    /// The position of a vertex, which is added if it is not there.
+    #[inline]
+    fn number(&mut self, mesh: &mut Complex, v: u32) -> u32 {
+        self.vertices.expect(1);
+        let known = self.position(mesh, v);
+        let count = self.vertices.taken().len() as u32;
+        let number = if known == NONE { count } else { known };
+        mesh.set_local(v, number);
+        self.vertices.offer(v, known == NONE);
+        number
+    }
+
+    /// The position of a vertex, or `NONE`.
+    #[inline]
+    pub fn position(&self, mesh: &Complex, v: u32) -> u32 {
+        let known = mesh.local(v);
+        if self.vertices.taken().get(known as usize) == Some(&v) { known } else { NONE }
+    }
+
+    /// Of the cells destroyed the last one in canonical order.
+    pub fn last(&self) -> Option<Tetrahedron> {
+        self.cells.iter().map(|f| f.cell().tuple()).max()
+    }
+}
+
+/// Where a corner stands in a cell, found without a branch.
+#[inline]
+fn place(cell: &Cell, v: u32) -> usize {
+    usize::from(cell.v[1] == v) + 2 * usize::from(cell.v[2] == v) + 3 * usize::from(cell.v[3] == v)
+}
