@@ -73,15 +73,17 @@ const HEAVIER: &str = r#"
 
 #[test]
 fn forgeries_are_refused_where_they_go_wrong() {
-    for (name, text, event, rule) in [
-        ("a lost vertex removed later", LOST, 6, Rule::Hidden),
-        ("a lost vertex removed at once", EMPTIED, 5, Rule::Hidden),
-        ("an heir of another weight", HEAVIER, 6, Rule::Order),
+    // Plainly the lost vertex is found in the orthoball of a new cell, strictly it is missed, since the neighbors of that are new.
+    let lost = [Rule::Regular, Rule::Hidden];
+    for (name, text, event, rules) in [
+        ("a lost vertex removed later", LOST, 4, lost),
+        ("a lost vertex removed at once", EMPTIED, 4, lost),
+        ("an heir of another weight", HEAVIER, 6, [Rule::Order; 2]),
     ] {
         let records: Vec<Record> = Reader::new(text.trim_start().as_bytes())
             .collect::<Result<_, _>>()
             .unwrap_or_else(|e| panic!("{name}: {e}"));
-        for strict in [false, true] {
+        for (strict, rule) in [false, true].into_iter().zip(rules) {
             match verify(&records, Options { strict, digests: false }) {
                 Verdict::Rejected(r) => assert_eq!((r.event, r.rule), (Place::Event(event), rule), "{name}: {r:?}"),
                 other => panic!("{name}: {other:?}"),
