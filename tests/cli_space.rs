@@ -237,3 +237,53 @@ fn meshes_and_points_convert() {
         assert_eq!(done["counts"]["cells"], cells, "{name}");
     }
 }
+
+/// What could not be tested does not pass: claims that rest on a complex that is none, sizes too far apart, a mesh without tetrahedra.
+#[test]
+fn unchecked_claims_do_not_pass() {
+    let f = folder("space_unchecked");
+    let tetrahedra = |points: &str, cells: &str| {
+        let (p, c) = (points.lines().count(), cells.lines().count());
+        format!("MeshVersionFormatted 2\nDimension 3\nVertices\n{p}\n{points}\nTetrahedra\n{c}\n{cells}\nEnd\n")
+    };
+    // Two regular tetrahedra of one cube: they overlap, and their spheres are one.
+    let cube = "0 0 0 0\n1 1 0 0\n1 0 1 0\n0 1 1 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 1 1 0";
+    fs::write(f.join("overlap.mesh"), tetrahedra(cube, "1 2 4 3 0\n5 6 7 8 0")).unwrap();
+    let report = json(&f, "check --claims delaunay --json overlap.mesh", 1);
+    assert_eq!((&report["verdict"], &report["claims"][0]["verdict"]), (&"unchecked".into(), &"unchecked".into()));
+    assert_eq!(json(&f, "check --json overlap.mesh", 1)["verdict"], "violated");
+    let apart = "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 5e-324 1 0";
+    fs::write(f.join("apart.mesh"), tetrahedra(apart, "1 2 3 4 0")).unwrap();
+    assert_eq!(json(&f, "check --json apart.mesh", 1)["verdict"], "unchecked");
+    fs::write(f.join("one.mesh"), tetrahedra("0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0", "1 2 3 4 0")).unwrap();
+    assert_eq!(json(&f, "check --json one.mesh", 0)["verdict"], "holds");
+    let plane =
+        "MeshVersionFormatted 2\nDimension 3\nVertices\n3\n0 0 0 0\n1 0 0 0\n0 1 0 0\nTriangles\n1\n1 2 3 0\nEnd\n";
+    fs::write(f.join("plane.mesh"), plane).unwrap();
+    assert_eq!(json(&f, "check --json plane.mesh", 1)["verdict"], "unchecked");
+}
+
+/// A trace that takes a point of the input out again is not of that input.
+#[test]
+fn an_input_binds_what_happens_to_it() {
+    let f = folder("space_bound");
+    fs::write(f.join("p.xyz"), "0 0 0\n4 0 0\n0 4 0\n0 0 4\n").unwrap();
+    let events = r#"{"format":"orthoball-trace","version":1,"algorithm":"regular","weighted":false,"permuted":false,"scale":0}
+{"start":0}
+{"vertex":[0.0,0.0,0.0]}
+{"i":0,"event":"raise","id":0,"apexes":["+x","+y","+z"]}
+{"vertex":[4.0,0.0,0.0]}
+{"i":1,"event":"raise","id":1,"apexes":["+y","+z"]}
+{"vertex":[0.0,4.0,0.0]}
+{"i":2,"event":"raise","id":2,"apexes":["+z"]}
+{"vertex":[0.0,0.0,4.0]}
+{"i":3,"event":"raise","id":3,"apexes":[]}
+{"remove":3}
+{"i":4,"event":"lower","id":3,"apexes":["+z"]}
+{"event":"end","counts":{"vertices":3,"hidden":0,"duplicates":0,"removed":1,"simplices":1},"mesh":"0000000000000000000000000000000000000000000000000000000000000000","trace":"0000000000000000000000000000000000000000000000000000000000000000"}
+"#;
+    fs::write(f.join("t.jsonl"), events).unwrap();
+    expect(&f, "verify --no-digest --strict t.jsonl", 0);
+    let verdict = json(&f, "verify --no-digest --strict --input p.xyz --json t.jsonl", 1);
+    assert_eq!((&verdict["verdict"], &verdict["rule"]), (&"rejected".into(), &"Input".into()));
+}

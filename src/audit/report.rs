@@ -194,6 +194,8 @@ impl<C, W> ClaimReport<C, W> {
     pub(super) fn conclude(mut self, holds: &str) -> Self {
         self.message = match self.verdict {
             Verdict::Violated => counted(self.violations, "violation"),
+            // Says why.
+            Verdict::Unchecked => return self,
             _ => holds.into(),
         };
         self
@@ -217,12 +219,11 @@ impl<C: PartialEq, W> Report<C, W> {
         self.claims.iter().all(|c| c.verdict != Verdict::Violated)
     }
 
-    /// Violated if some claim is; else unchecked if that is all that can be said, or may be said of none because each was `named`; else holds.
-    pub fn verdict(&self, named: bool) -> Verdict {
-        let unchecked = |c: &ClaimReport<C, W>| c.verdict == Verdict::Unchecked;
+    /// Violated if some claim is; else unchecked if one that is `needed` is; else holds.
+    pub fn verdict(&self, needed: impl Fn(&C) -> bool) -> Verdict {
         if !self.passed() {
             Verdict::Violated
-        } else if self.claims.iter().all(unchecked) || (named && self.claims.iter().any(unchecked)) {
+        } else if self.claims.iter().any(|c| c.verdict == Verdict::Unchecked && needed(&c.claim)) {
             Verdict::Unchecked
         } else {
             Verdict::Holds

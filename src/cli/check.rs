@@ -22,7 +22,7 @@ const EVERYDAY_IN_SPACE: [space::Claim; 5] = {
     [Valid, Orientation, Delaunay, Quality, Topology]
 };
 
-/// Audits a mesh. Exit code 1 if a claim is violated, or if a claim that was named, or every one, is unchecked.
+/// Audits a mesh. Exit code 1 if a claim is violated, or if one that the file could prove is unchecked.
 pub fn run(args: &CheckArgs) -> Answer {
     match read_any_mesh(&args.mesh, args.column.column().as_ref())? {
         AnyMesh::Plane(mesh) => plane(args, &mesh),
@@ -57,7 +57,7 @@ fn in_space(args: &CheckArgs, mesh: &ForeignMesh3) -> Answer {
     };
     let begun = Instant::now();
     let report = space::audit(&subject, &space::Options { claims: &claims, radius_edge: args.radius_edge });
-    let (verdict, seconds) = (report.verdict(!args.claims.is_empty()), begun.elapsed().as_secs_f64());
+    let (verdict, seconds) = (report.verdict(|_| true), begun.elapsed().as_secs_f64());
     if args.json {
         data(json!({
             "verdict": verdict,
@@ -101,7 +101,9 @@ fn plane(args: &CheckArgs, mesh: &ForeignMesh) -> Answer {
     let no_lines = crate::model::Lines::default();
     let input = loaded.as_ref().map(|l| (&l.prepared.pslg, &no_lines));
     let report = audit(&subject, &Options { claims: &claims, input, within: args.within, rho2 });
-    let verdict = report.verdict(!args.claims.is_empty());
+    // These two need an input, and are asked for unless others are named.
+    let optional = [Claim::Constrained, Claim::Conforming];
+    let verdict = report.verdict(|c| !args.claims.is_empty() || !optional.contains(c));
     if args.json {
         data(json!({
             "verdict": verdict,

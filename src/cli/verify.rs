@@ -135,6 +135,9 @@ impl Judge {
                 let place = input.unwrap_or(self.stated3.len() as u32);
                 self.stated3.push((place, *point));
             }
+            Record::Space(Record3::Weight { .. } | Record3::Remove { .. }) if self.input.is_some() => {
+                return Err(other_input("points, one of which the trace changes or removes"));
+            }
             Record::Space(Record3::End(_)) => {
                 self.stated3.sort_by_key(|s| s.0);
                 let same = match &self.input {

@@ -251,6 +251,22 @@ fn triple(i: i64, m: i128, j: i64, n: i128, k: i64, o: i128) -> Triple {
 }
 
 impl Triple {
+    /// The magnitude, least limb first.
+    #[inline]
+    fn magnitude(self) -> [u64; 3] {
+        let limbs = [self.low, self.high as u64, (self.high >> 64) as u64];
+        if self.high >= 0 {
+            return limbs;
+        }
+        let mut carry = 1u128;
+        limbs.map(|l| {
+            carry += u128::from(!l);
+            let limb = carry as u64;
+            carry >>= 64;
+            limb
+        })
+    }
+
     #[inline]
     fn sign(self) -> Sign {
         match self.high.signum() {
@@ -303,23 +319,5 @@ impl Sum {
         } else {
             Sign::Positive
         }
-    }
-}
-
-impl Triple {
-    /// The magnitude, least limb first.
-    #[inline]
-    fn magnitude(self) -> [u64; 3] {
-        let limbs = [self.low, self.high as u64, (self.high >> 64) as u64];
-        if self.high >= 0 {
-            return limbs;
-        }
-        let mut carry = 1u128;
-        limbs.map(|l| {
-            carry += u128::from(!l);
-            let limb = carry as u64;
-            carry >>= 64;
-            limb
-        })
     }
 }

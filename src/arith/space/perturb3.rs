@@ -5,12 +5,6 @@
 use super::Kernel3;
 use super::kernel3::Corners3;
 use crate::model::{Point3, Sign};
-use std::cmp::Ordering;
-
-/// Lexicographic order of points by (x, y, z), exact.
-pub fn lexicographic3(a: Point3, b: Point3) -> Ordering {
-    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
-}
 
 /// Whether q, exactly on the orthosphere of the positively oriented tetrahedron t, is in conflict with it under the perturbation.
 ///
@@ -43,7 +37,7 @@ pub fn cospherical_in_conflict<K: Kernel3>(t: Corners3, q: Point3) -> bool {
     }
 }
 
-/// a > b lexicographically.
+/// a > b lexicographically by (x, y, z); -0 equals 0.
 #[inline]
 fn is_larger(a: Point3, b: Point3) -> bool {
     if a.x != b.x {

@@ -29,12 +29,11 @@ use crate::check::space::predicates::orient;
 use crate::model::{Point3, Sign};
 use std::cmp::Ordering;
 
-/// Boxes looked at, per facet, beyond which a border is not examined: real ones need about fifteen.
-const PAIRS: usize = 500;
-
-/// How many boxes may be looked at for a border of so many facets.
-pub(super) fn budget(facets: usize) -> usize {
-    PAIRS * (facets + PAIRS)
+/// How many items a search may look at for so many others; real meshes need about fifteen each. Beyond, a claim is not examined: time stays linear.
+pub(super) fn budget(items: usize) -> usize {
+    const EACH: usize = 500;
+    const AT_LEAST: usize = 10_000_000;
+    AT_LEAST + EACH * items
 }
 
 /// Violations after which the examination ends.

@@ -1,5 +1,6 @@
 //! Points of the file that are no vertex of a cell.
 
+use super::border::budget;
 use super::complex::{Complex, is_finite};
 use crate::audit::tree::Tree;
 use crate::check::space::glue::FACETS;
@@ -15,6 +16,8 @@ pub(super) struct Isolated {
     pub outside: Vec<u32>,
     /// Not finite.
     pub broken: Vec<u32>,
+    /// Whether the search ended early: some of those outside may be held.
+    pub is_partial: bool,
 }
 
 impl Isolated {
@@ -28,8 +31,10 @@ impl Isolated {
         }
         let alone = (0u32..).zip(&used).filter(|v| !v.1).map(|v| v.0);
         let (usable, broken): (Vec<u32>, Vec<u32>) = alone.partition(|&v| is_finite(complex.subject, v));
+        let mut is_partial = false;
         let mut holder: Vec<Option<u32>> = vec![None; usable.len()];
         if !usable.is_empty() {
+            let mut budget = budget(complex.cells.len() + usable.len());
             let tree = Tree::new(usable.len(), |i| [complex.at(usable[i]); 2]);
             for t in 0..complex.cells.len() as u32 {
                 let corners @ [a, b, c, d] = complex.corners(t).map(|p| p.at);
@@ -40,11 +45,16 @@ impl Isolated {
                     if place.is_none() && holds(&corners, complex.at(usable[i as usize])) {
                         *place = Some(t);
                     }
-                    true
+                    budget = budget.saturating_sub(1);
+                    budget > 0
                 });
+                is_partial = budget == 0;
+                if is_partial {
+                    break;
+                }
             }
         }
-        let mut isolated = Isolated { broken, ..Isolated::default() };
+        let mut isolated = Isolated { broken, is_partial, ..Isolated::default() };
         for (&v, holder) in usable.iter().zip(holder) {
             match holder {
                 Some(t) => isolated.held.push((v, t)),

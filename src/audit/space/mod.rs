@@ -113,6 +113,15 @@ fn audit_taking(subject: &Subject<'_>, options: &Options<'_>, orientations: Orie
             report.verdict = Verdict::Unchecked;
             report.message = format!("{}; but the mesh is not known to be a valid complex", report.message);
         }
+        // Of points that belong to no cell only hull says that they are outside; what spheres have found stays found.
+        let lacks_points = match claim {
+            Claim::Hull => true,
+            Claim::Delaunay | Claim::Regular | Claim::Canonical => report.verdict != Verdict::Violated,
+            _ => false,
+        };
+        if isolated.is_partial && lacks_points {
+            report = ClaimReport::unchecked(claim, "too many points that belong to no cell are close to cells");
+        }
         if let (Some(v), true) = (complex.unscalable, report.verdict != Verdict::Told) {
             report = ClaimReport::unchecked(
                 claim,

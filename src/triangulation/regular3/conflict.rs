@@ -62,7 +62,7 @@ impl<K: Kernel3> Regular3<K> {
                 let mark = &mut self.marks[(link >> 2) as usize];
                 candidates[count] = link >> 2;
                 count += usize::from(*mark == 0);
-                // Cells of the zone keep their mark, all others get this one.
+                // A mark of the zone stays beside this one.
                 *mark |= OUTSIDE;
             }
         }

@@ -129,7 +129,7 @@ impl<K: Kernel3> Regular3<K> {
                 }
             }
         }
-        debug_assert!(hole.open.is_empty(), "a hole whose boundary does not close");
+        assert!(hole.open.is_empty(), "a hole whose boundary does not close");
     }
 
     /// The vertex of the cell over a facet, seen from inside; the infinite one if there is none on that side.
@@ -169,9 +169,11 @@ impl<K: Kernel3> Regular3<K> {
             facets.extend((0u32..).zip(FACET).map(|(i, f)| (key(f.map(|k| v[k])), 4 * t + i)));
         }
         facets.sort_unstable();
-        for pair in facets.chunks_exact(2) {
-            debug_assert!(pair[0].0 == pair[1].0, "a hole whose boundary does not close");
-            self.link(pair[0].1, pair[1].1);
+        let (pairs, rest) = facets.as_chunks::<2>();
+        assert!(rest.is_empty(), "a hole whose boundary does not close");
+        for &[(one, f), (other, g)] in pairs {
+            assert!(one == other, "a hole whose boundary does not close");
+            self.link(f, g);
         }
     }
 }

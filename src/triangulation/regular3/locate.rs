@@ -22,7 +22,7 @@ impl<K: Kernel3> Regular3<K> {
         (!self.cells.is_empty()).then(|| CellId(self.walk(self.last, q).cell))
     }
 
-    /// The walk to q from cell `start`. From each cell it goes on beyond the facet that is the farthest behind q.
+    /// The walk to q from cell `start`. From each cell it goes on beyond the facet that has q behind it and spans the largest tetrahedron with it.
     pub(super) fn walk(&self, start: u32, q: Point3) -> Found {
         let mut at = start;
         let mut cell = &self.cells[at as usize];

@@ -50,13 +50,7 @@ impl<K: Kernel3> Regular3<K> {
 
     /// Cells have four vertices of the triangulation, links agree on their facets, points know their cells, and Euler's relation holds. Assumes nothing.
     pub fn validate_links(&self) -> Result<(), Violation> {
-        let free = self.cells.iter().filter(|c| c.is_free()).count();
-        if let Some(&c) = self.free.iter().find(|&&c| self.is_live(CellId(c))) {
-            return Err(Violation::Slot(CellId(c)));
-        }
-        if let Some(c) = (0..self.cells.len()).find(|&c| self.marks[c] != 0 || free != self.free.len()) {
-            return Err(Violation::Slot(CellId(c as u32)));
-        }
+        self.validate_slots()?;
         let mut used = vec![false; self.sites.len()];
         let mut edges = Vec::new();
         for c in self.cells() {
@@ -73,6 +67,22 @@ impl<K: Kernel3> Regular3<K> {
         let (cells, vertices, edges) = (self.cell_count(), used.iter().filter(|&&u| u).count(), edges.len());
         // V - E + F - C = 0 with F = 2 C.
         if vertices + cells != edges { Err(Violation::Count { cells, vertices, edges }) } else { Ok(()) }
+    }
+
+    /// The free slots are listed, each once, and no cell is marked.
+    fn validate_slots(&self) -> Result<(), Violation> {
+        let mut listed = vec![false; self.cells.len()];
+        for &c in &self.free {
+            match listed.get_mut(c as usize) {
+                Some(first @ false) => *first = true,
+                _ => return Err(Violation::Slot(CellId(c))),
+            }
+        }
+        let wrong = |&c: &usize| self.marks[c] != 0 || listed[c] != self.cells[c].is_free();
+        match (0..self.cells.len()).find(wrong) {
+            Some(c) => Err(Violation::Slot(CellId(c as u32))),
+            None => Ok(()),
+        }
     }
 
     fn validate_cell(&self, c: CellId) -> Result<(), Violation> {
@@ -121,9 +131,10 @@ impl<K: Kernel3> Regular3<K> {
                     !used[i] && live(hint) && lodges
                 }
                 Status::Duplicate => {
-                    let stands = matches!(self.status[hint as usize], Status::Vertex | Status::Hidden);
-                    let smaller = self.ids[hint as usize] < id.0;
-                    !used[i] && stands && smaller && self.site(hint) == self.site(place)
+                    let status = self.status.get(hint as usize);
+                    let stands = matches!(status, Some(Status::Vertex | Status::Hidden));
+                    let same = || self.ids[hint as usize] < id.0 && self.site(hint) == self.site(place);
+                    !used[i] && stands && same()
                 }
                 Status::Removed => !used[i],
             };
