@@ -85,7 +85,9 @@ impl<K: Kernel3> Regular3<K> {
             }
         }
         self.set_hints_from(0);
-        self.lodge_all();
+        let hidden = self.homeless();
+        let cells = self.cells_of(&hidden);
+        self.lodge_together(&hidden, &cells);
     }
 
     /// Lets the vertices of all cells from this slot on refer to them.
@@ -94,21 +96,6 @@ impl<K: Kernel3> Regular3<K> {
             if !cell.is_free() {
                 for v in cell.v {
                     self.hints[v as usize] = i;
-                }
-            }
-        }
-    }
-
-    /// Points without a hint are hidden: lets them lodge.
-    pub(super) fn lodge_all(&mut self) {
-        for place in FIRST..self.sites.len() as u32 {
-            if self.hints[place as usize] == NONE {
-                match self.lodgers.by_site.get(&super::lodge::key(self.site(place))) {
-                    Some(&of) => self.make_twin(place, of),
-                    None => {
-                        self.lodge(place, self.last);
-                        self.last = self.hints[place as usize];
-                    }
                 }
             }
         }

@@ -4,7 +4,7 @@
 //! that is destroyed. Lists exist only for cells with lodgers. Coinciding hidden points (same place, same weight) are found by their
 //! coordinates, since a point on a facet may lodge on either side of it.
 
-use super::store::{NONE, Regular3, Status};
+use super::store::{FIRST, NONE, Regular3, Status};
 use crate::arith::space::Kernel3;
 use crate::model::WeightedPoint;
 use std::collections::BTreeMap;
@@ -31,6 +31,40 @@ impl<K: Kernel3> Regular3<K> {
         self.hints[place as usize] = found.cell;
         self.lodgers.of_cell.entry(found.cell).or_default().push(place);
         self.lodgers.by_site.insert(key(self.site(place)), place);
+    }
+
+    /// The places without a hint, which are those of hidden points if vertices have theirs.
+    pub(super) fn homeless(&self) -> Vec<u32> {
+        (FIRST..self.sites.len() as u32).filter(|&place| self.hints[place as usize] == NONE).collect()
+    }
+
+    /// The cells that contain the points of these places, each searched from the one before.
+    pub(super) fn cells_of(&self, places: &[u32]) -> Vec<u32> {
+        let from = |last: &mut u32, &place: &u32| {
+            *last = self.walk(*last, self.site(place).at).cell;
+            Some(*last)
+        };
+        places.iter().scan(self.last, from).collect()
+    }
+
+    /// Lets hidden points, the first ones, lodge in the cells that contain them. Of coinciding ones the first lodges and the others are its duplicates.
+    pub(super) fn lodge_together(&mut self, places: &[u32], cells: &[u32]) {
+        let by_site = places.iter().zip(cells).map(|(&place, &cell)| (key(self.site(place)), place, cell));
+        let mut by_site: Vec<_> = by_site.collect();
+        by_site.sort_unstable();
+        let (mut of_site, mut of_cell) = (Vec::new(), Vec::new());
+        for same in by_site.chunk_by(|a, b| a.0 == b.0) {
+            let (site, place, cell) = same[0];
+            of_site.push((site, place));
+            of_cell.push((cell, place));
+            self.status[place as usize] = Status::Hidden;
+            self.hints[place as usize] = cell;
+            same[1..].iter().for_each(|&(_, twin, _)| self.make_twin(twin, place));
+        }
+        of_cell.sort_unstable();
+        let lists = of_cell.chunk_by(|a, b| a.0 == b.0).map(|same| (same[0].0, same.iter().map(|e| e.1).collect()));
+        // Collected from ascending keys, a map is built at once.
+        self.lodgers = Lodgers { of_cell: lists.collect(), by_site: of_site.into_iter().collect() };
     }
 
     /// The lodgers of a cell, which leave it.

@@ -11,26 +11,23 @@ use crate::arith::space::Kernel3;
 use crate::model::WeightedPoint;
 use rayon::prelude::*;
 
+/// How many hidden points are searched from the same cell, one after the other: enough that the way to the first one does not matter.
+const STRETCH: usize = 1 << 10;
+
 impl<K: Kernel3> Regular3<K> {
     /// Puts the pieces together and fills what they leave open; `None` if they do not fit.
     pub(super) fn assemble(points: &[WeightedPoint], mut pieces: Vec<Piece>) -> Option<Self> {
-        let mut t = Self::with_capacity(points.len());
-        t.dimension = Some(3);
-        t.take_points(points, &pieces);
-        let mut torn: Vec<u32> = pieces.iter().flat_map(|p| &p.torn).map(|&id| t.places[id as usize]).collect();
+        let mut torn: Vec<u32> = pieces.iter().flat_map(|p| &p.torn).copied().collect();
         torn.sort_unstable();
         torn.dedup();
-        let mixed = number_mixed(&mut pieces);
+        let filling = || Self::build_alone(&torn.iter().map(|&id| points[id as usize]).collect::<Vec<_>>());
+        let (filling, (mut t, mixed)) =
+            rayon::join(filling, || rayon::join(|| Self::of_pieces(points, &pieces), || mixed_of_all(&pieces)));
+        let links = number_mixed(&mut pieces, &mixed);
+        let mut open: Vec<u32> = Vec::new();
         let (mut first_place, mut first_cell) = (FIRST, 0);
-        let (mut open, mut known) = (Vec::new(), Vec::new());
         for piece in pieces {
             open.extend(piece.open.iter().map(|&link| piece.moved(link, first_cell)));
-            known.extend(piece.mixed.iter().map(|m| {
-                (
-                    piece.number[m.cell as usize] + first_cell,
-                    piece.cells[m.cell as usize].n.map(|n| piece.moved(n, first_cell)),
-                )
-            }));
             t.cells.par_extend(piece.inner.par_iter().map(|&c| {
                 let Cell { v, n } = piece.cells[c as usize];
                 Cell {
@@ -40,52 +37,68 @@ impl<K: Kernel3> Regular3<K> {
             }));
             first_place += piece.order.len() as u32;
             first_cell += piece.inner.len() as u32;
+            // To give the memory back takes as long as some thousand points.
+            rayon::spawn(move || drop(piece));
         }
-        let of_ids = |ids: &[u32; 4]| Cell { v: ids.map(|id| t.places[id as usize]), n: [NONE; 4] };
-        t.cells.par_extend(mixed.par_iter().map(of_ids));
-        t.link_mixed(&known)?;
+        let places = &t.places;
+        t.cells.par_extend(mixed.par_iter().map(|ids| Cell { v: ids.map(|id| places[id as usize]), n: [NONE; 4] }));
+        t.link_mixed(links.iter().flatten())?;
         for c in first_cell..t.cells.len() as u32 {
             open.extend((4 * c..4 * c + 4).filter(|&link| t.cells[c as usize].n[(link & 3) as usize] == NONE));
         }
         let mut seams = Vec::new();
         let facets = open.iter().map(|&link| (key(t.facet(link)), link)).collect();
         let rim = t.glue_facets(facets, &mut seams);
-        t.close(&rim, &torn, &mut seams)?;
+        torn.iter_mut().for_each(|id| *id = t.places[*id as usize]);
+        t.close(&rim, &filling, &torn, &mut seams)?;
         t.marks = vec![0; t.cells.len()];
         t.last = seams.first()?[0] >> 2;
         t.set_hints_from(first_cell);
-        t.lodge_all();
+        let hidden = t.homeless();
+        let cells: Vec<u32> = hidden.par_chunks(STRETCH).flat_map_iter(|stretch| t.cells_of(stretch)).collect();
+        t.lodge_together(&hidden, &cells);
         t.fits(&seams).then_some(t)
     }
 
-    /// Gives the points of all pieces their places, and those of inner cells their hints.
-    fn take_points(&mut self, points: &[WeightedPoint], pieces: &[Piece]) {
-        let mut first_cell = 0;
+    /// A triangulation without cells as yet: points have their places, and those of inner cells their hints.
+    fn of_pieces(points: &[WeightedPoint], pieces: &[Piece]) -> Self {
+        let mut t = Self::with_capacity(points.len());
+        t.dimension = Some(3);
+        let (sites, ids, hints, places) = (&mut t.sites, &mut t.ids, &mut t.hints, &mut t.places);
+        let order = || pieces.iter().flat_map(|p| &p.order);
+        let fill_sites = || {
+            pieces.iter().for_each(|p| sites.par_extend(p.order.par_iter().map(|&id| Site::of(points[id as usize]))));
+        };
+        let fill_names = || {
+            ids.extend(order());
+            places.resize(points.len(), NONE);
+            (FIRST..).zip(order()).for_each(|(place, &id)| places[id as usize] = place);
+        };
+        let fill_hints = || {
+            let mut first_cell = 0;
+            for piece in pieces {
+                let hint = |&number: &u32| if number == NONE { NONE } else { number + first_cell };
+                hints.extend(piece.hints.iter().map(hint));
+                first_cell += piece.inner.len() as u32;
+            }
+        };
+        rayon::join(fill_sites, || rayon::join(fill_names, fill_hints));
+        t.status.resize(t.sites.len(), Status::Vertex);
         for piece in pieces {
-            let site = |&id: &u32| Site::of(points[id as usize]);
-            self.sites.par_extend(piece.order.par_iter().map(site));
-            self.ids.extend_from_slice(&piece.order);
-            let hint = |&number: &u32| if number == NONE { NONE } else { number + first_cell };
-            self.hints.extend(piece.hints.iter().map(hint));
-            first_cell += piece.inner.len() as u32;
-            self.has_weights |= piece.has_weights;
-            if piece.unit < self.unit {
-                (self.unit, self.exact_below) = (piece.unit, piece.exact_below);
+            t.has_weights |= piece.has_weights;
+            if piece.unit < t.unit {
+                (t.unit, t.exact_below) = (piece.unit, piece.exact_below);
             }
         }
-        self.status.resize(self.sites.len(), Status::Vertex);
-        self.places.resize(points.len(), NONE);
-        for (place, &id) in (FIRST..).zip(&self.ids[FIRST as usize..]) {
-            self.places[id as usize] = place;
-        }
         for [twin, of] in pieces.iter().flat_map(|p| &p.twins) {
-            let (twin, of) = (self.places[*twin as usize], self.places[*of as usize]);
-            self.make_twin(twin, of);
+            let (twin, of) = (t.places[*twin as usize], t.places[*of as usize]);
+            t.make_twin(twin, of);
         }
+        t
     }
 
-    /// Links mixed cells, given with what a thread knows of their neighbors; `None` if two threads contradict each other.
-    fn link_mixed(&mut self, known: &[(u32, [u32; 4])]) -> Option<()> {
+    /// Gives mixed cells the links that the threads know; `None` if two threads contradict each other.
+    fn link_mixed<'a>(&mut self, known: impl Iterator<Item = &'a (u32, [u32; 4])>) -> Option<()> {
         for &(c, links) in known {
             for (link, known) in self.cells[c as usize].n.iter_mut().zip(links) {
                 if *link == NONE {
@@ -122,15 +135,13 @@ impl<K: Kernel3> Regular3<K> {
         rim
     }
 
-    /// Fills what is open from the triangulation of the torn points; `None` if that leaves anything open.
-    fn close(&mut self, rim: &[Rim], torn: &[u32], seams: &mut Vec<[u32; 2]>) -> Option<()> {
-        let points: Vec<WeightedPoint> = torn.iter().map(|&place| self.site(place)).collect();
-        let subset = Self::build_alone(&points);
+    /// Fills what is open from the triangulation of the points with places `torn`; `None` if that leaves anything open.
+    fn close(&mut self, rim: &[Rim], subset: &Self, torn: &[u32], seams: &mut Vec<[u32; 2]>) -> Option<()> {
         if subset.dimension != Some(3) {
             return None;
         }
         let mut facets: Vec<(Key, u32)> = rim.iter().map(|f| (key(f.v), f.outer)).collect();
-        for v in cells_within(&subset, torn, rim) {
+        for v in cells_within(subset, torn, rim) {
             let c = self.cells.len() as u32;
             facets.extend((0u32..).zip(FACET).map(|(i, f)| (key(f.map(|k| v[k])), 4 * c + i)));
             self.cells.push(Cell { v, n: [NONE; 4] });
@@ -150,7 +161,7 @@ impl<K: Kernel3> Regular3<K> {
             !cell.is_ghost() && places.iter().all(|&place| !self.in_conflict(cell, self.site(place)))
         };
         seams.par_iter().all(|&[one, other]| regular(one, other) && regular(other, one))
-            && self.lodgers.of_cell.iter().all(hidden)
+            && self.lodgers.of_cell.par_iter().all(hidden)
     }
 }
 
@@ -164,23 +175,30 @@ impl Piece {
     }
 }
 
-/// The mixed cells of all pieces, each once. They get numbers that follow those of all inner cells.
-fn number_mixed(pieces: &mut [Piece]) -> Vec<[u32; 4]> {
+/// The mixed cells of all pieces, each once, ascending.
+fn mixed_of_all(pieces: &[Piece]) -> Vec<[u32; 4]> {
     let mut all: Vec<[u32; 4]> = pieces.iter().flat_map(|p| p.mixed.iter().map(|m| m.ids)).collect();
     all.par_sort_unstable();
     all.dedup();
-    // Numbers count from the piece's first cell.
+    all
+}
+
+/// Gives the mixed cells numbers that follow those of all inner cells. Lists for each piece the numbers with the links that it knows.
+fn number_mixed(pieces: &mut [Piece], all: &[[u32; 4]]) -> Vec<Vec<(u32, [u32; 4])>> {
     let starts = pieces.iter().scan(0, |sum, p| Some(std::mem::replace(sum, *sum + p.inner.len() as u32)));
     let starts: Vec<u32> = starts.collect();
     let end: u32 = pieces.iter().map(|p| p.inner.len() as u32).sum();
-    pieces.par_iter_mut().zip(starts).for_each(|(piece, start)| {
-        // Both lists ascend.
-        let mut of_all = (end - start..).zip(&all);
+    let number = |(piece, start): (&mut Piece, u32)| {
+        // Both lists ascend. A piece counts from its first cell.
+        let mut of_all = (end - start..).zip(all);
         for m in &piece.mixed {
             if let Some((number, _)) = of_all.find(|(_, ids)| **ids == m.ids) {
                 piece.number[m.cell as usize] = number;
             }
         }
-    });
-    all
+        let link = |link| piece.moved(link, start);
+        let links = |c: u32| (piece.number[c as usize] + start, piece.cells[c as usize].n.map(link));
+        piece.mixed.iter().map(|m| links(m.cell)).collect()
+    };
+    pieces.par_iter_mut().zip(starts).map(number).collect()
 }

@@ -8,7 +8,7 @@ use crate::model::{Point3, WeightedPoint};
 /// How many points are looked at: a box of n of them then has the share of the points that it seems to have up to n^(1/2) / n.
 const SAMPLE: usize = 1 << 16;
 /// Layers of points in a halo: of uniform points all but one cell in some millions are smaller.
-const LAYERS: usize = 4;
+const LAYERS: usize = 3;
 
 /// A box of space, closed below and open above, infinite where nothing was cut; and a larger one.
 #[derive(Clone, Copy, Debug)]

@@ -34,7 +34,7 @@ use rayon::prelude::*;
 /// Fewer points than this a thread are not worth its start.
 const POINTS_PER_THREAD: usize = 10_000;
 /// How many points tell whether most would be torn. Of so many uniform ones some 10% are on the hull.
-const REHEARSAL: usize = 1 << 12;
+const REHEARSAL: usize = 1 << 11;
 
 /// What a thread knows of all points.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! What one thread does: it triangulates a part with its halo, and sorts the cells.
 //!
 //! Cells that are not sure are those that some point outside of the box with its halo may be in conflict with. The conflict zone of such a
-//! point is connected and has a ghost, as the point lies beyond the hull, so that a flood from the ghosts finds all cells that are not sure, and
-//! only their neighbors are looked at.
+//! point is connected and has a ghost, as the point lies beyond the hull, and ghosts are connected: a flood from one of them finds all cells that
+//! are not sure, and only their neighbors are looked at.
 
 use super::super::store::{Cell, FIRST, NONE, Regular3, Status};
 use super::Surroundings;
@@ -112,12 +112,12 @@ fn sort_cells<K: Kernel3>(t: Regular3<K>, ids: &[u32], own: u32) -> Piece {
     }
     piece.torn.sort_unstable();
     piece.torn.dedup();
-    piece.mixed.sort_unstable();
     piece.cells = t.cells;
     for &Mixed { ids: order, cell } in &piece.mixed {
         let v = piece.cells[cell as usize].v.map(id);
         reorder(&mut piece.cells, cell, order.map(|x| v.iter().position(|&y| y == x).unwrap_or(0)));
     }
+    piece.mixed.sort_unstable();
     piece
 }
 
@@ -133,9 +133,10 @@ fn reorder(cells: &mut [Cell], c: u32, from: [usize; 4]) {
 impl<K: Kernel3> Regular3<K> {
     /// Marks the cells that are not sure.
     fn mark_torn(&mut self, part: &Part, all: &Surroundings) {
-        let mut next: Vec<u32> = (0u32..).zip(&self.cells).filter(|(_, c)| c.is_ghost()).map(|(c, _)| c).collect();
-        for &c in &next {
-            self.marks[c as usize] = TORN;
+        let mut next: Vec<u32> = Vec::new();
+        if let Some(ghost) = self.cells.iter().position(Cell::is_ghost) {
+            self.marks[ghost] = TORN;
+            next.push(ghost as u32);
         }
         while let Some(c) = next.pop() {
             for link in self.cells[c as usize].n {
@@ -144,7 +145,8 @@ impl<K: Kernel3> Regular3<K> {
                     continue;
                 }
                 self.marks[beyond] = SURE;
-                if !self.keeps_inside(&self.cells[beyond], part, all) {
+                let cell = &self.cells[beyond];
+                if cell.is_ghost() || !self.keeps_inside(cell, part, all) {
                     self.marks[beyond] = TORN;
                     next.push(link >> 2);
                 }
