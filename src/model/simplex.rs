@@ -30,17 +30,13 @@ pub type Tetrahedron = [VertexId; 4];
 /// The even permutation of a positively oriented tetrahedron that is its canonical tuple.
 pub fn canonical_tetrahedron(mut t: [VertexId; 4]) -> Tetrahedron {
     let mut odd = false;
-    // Insertion sort; every exchange flips the parity.
-    for i in 1..4 {
-        let mut j = i;
-        while j > 0 && t[j] < t[j - 1] {
-            t.swap(j, j - 1);
-            odd = !odd;
-            j -= 1;
-        }
+    // A network without branches, since no order of ids can be foreseen; every exchange flips the parity.
+    for (i, j) in [(0, 1), (2, 3), (0, 2), (1, 3), (1, 2)] {
+        let (x, y) = (t[i], t[j]);
+        odd ^= y < x;
+        (t[i], t[j]) = (x.min(y), x.max(y));
     }
-    if odd {
-        t.swap(2, 3);
-    }
+    let (c, d) = (t[2], t[3]);
+    (t[2], t[3]) = if odd { (d, c) } else { (c, d) };
     t
 }

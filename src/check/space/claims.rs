@@ -4,7 +4,7 @@ use super::complex::{FIRST, INFINITE, id};
 use super::hidden::State;
 use super::replay::Replay;
 use crate::check::verdict::{Checked, Rule, broken, ensure};
-use crate::model::{PointState, Triangulation3, VertexId, WeightedPoint};
+use crate::model::{PointState, Triangulation3, VertexId, WeightedPoint, canonical_tetrahedron};
 use crate::trace::Counts3;
 
 /// Every point is placed, and every vertex is in a cell.
@@ -83,44 +83,45 @@ pub fn triangulation(
     }
     let dimension = (!replay.is_empty()).then_some(3 - replay.apexes as u8);
     let size = 4 - replay.apexes as usize;
-    let mut tuples: Vec<[u32; 4]> = Vec::with_capacity(replay.mesh.slot_count() as usize);
-    for c in replay.mesh.tetrahedra() {
-        let named = replay.mesh.cell(c).v.map(|v| if v < FIRST { u32::MAX - (INFINITE - v) } else { name[v as usize] });
-        tuples.push(canonical(named, size));
-    }
-    if !tuples.is_sorted() {
-        tuples = by_first(tuples, count);
-    }
-    let simplices = tuples.iter().flat_map(|t| t[..size].iter().map(|&v| VertexId(v))).collect();
+    let simplices = if size == 4 { tetrahedra(replay, &name).into_flattened() } else { flat(replay, &name, size) };
     Triangulation3 { points, states, dimension, simplices }
 }
 
-/// Ascending order; a tetrahedron's last two ids are exchanged where that is an odd permutation. Apexes have the largest ids.
-fn canonical(t: [u32; 4], size: usize) -> [u32; 4] {
-    if size == 4 {
-        return crate::model::canonical_tetrahedron(t.map(VertexId)).map(|v| v.0);
-    }
-    let mut t = t;
-    t.sort_unstable();
-    t
+/// The simplices of a triangulation of fewer dimensions, `size` vertices each, canonical and ascending: ids ascend, and apexes have the largest.
+fn flat(replay: &Replay, name: &[u32], size: usize) -> Vec<VertexId> {
+    let all = replay.mesh.tetrahedra().map(|c| replay.mesh.cell(c).v);
+    let mut tuples: Vec<[u32; 4]> =
+        all.map(|v| v.map(|v| if v < FIRST { u32::MAX - (INFINITE - v) } else { name[v as usize] })).collect();
+    tuples.iter_mut().for_each(|t| t.sort_unstable());
+    tuples.sort_unstable();
+    tuples.iter().flat_map(|t| t[..size].iter().map(|&v| VertexId(v))).collect()
 }
 
-/// Ascending order, by buckets over the first id.
-fn by_first(tuples: Vec<[u32; 4]>, count: usize) -> Vec<[u32; 4]> {
-    let mut start = vec![0u32; count + 1];
-    tuples.iter().for_each(|t| start[t[0] as usize + 1] += 1);
-    for v in 1..start.len() {
-        start[v] += start[v - 1];
+/// The tetrahedra, canonical and ascending: by buckets over the first id.
+fn tetrahedra(replay: &Replay, name: &[u32]) -> Vec<[VertexId; 4]> {
+    let named = |c: u32| replay.mesh.cell(c).v.map(|v| VertexId(name[v as usize]));
+    // Where the bucket of each id starts; when it is full, where it ends.
+    let mut bounds = vec![0u32; replay.points.len() + 1];
+    for c in replay.mesh.tetrahedra() {
+        let [a, b, c, d] = named(c);
+        bounds[a.min(b).min(c.min(d)).index() + 1] += 1;
     }
-    let mut sorted = vec![[0; 4]; tuples.len()];
-    for t in tuples {
-        let place = &mut start[t[0] as usize];
-        sorted[*place as usize] = t;
-        *place += 1;
+    for v in 1..bounds.len() {
+        bounds[v] += bounds[v - 1];
+    }
+    let count = bounds.last().copied().unwrap_or(0);
+    let mut sorted = vec![[VertexId(0); 4]; count as usize];
+    for c in replay.mesh.tetrahedra() {
+        let t = canonical_tetrahedron(named(c));
+        let end = &mut bounds[t[0].index()];
+        sorted[*end as usize] = t;
+        *end += 1;
     }
     let mut from = 0;
-    for &to in &start[..count] {
-        sorted[from..to as usize].sort_unstable();
+    for &to in &bounds[..replay.points.len()] {
+        // Of equal first ids. One number is compared sooner than three.
+        sorted[from..to as usize]
+            .sort_unstable_by_key(|[_, b, c, d]| u128::from(b.0) << 64 | u128::from(c.0) << 32 | u128::from(d.0));
         from = to as usize;
     }
     sorted

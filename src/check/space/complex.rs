@@ -222,10 +222,13 @@ impl Complex {
         cell
     }
 
-    /// Marks a cell as destroyed, or does not. Its slot is not used again before `release`.
+    /// Looks at the cell of a facet: whether it is there, and the corner opposite. Marks it as destroyed, or does not; its slot is not used again before `release`.
     #[inline]
-    pub fn mark(&mut self, c: u32, destroyed: bool) {
-        self.cells[c as usize].v[0] |= u32::from(destroyed) << 31;
+    pub fn meet(&mut self, f: u32, destroyed: bool) -> (bool, u32) {
+        let v = &mut self.cells[(f >> 2) as usize].v;
+        let (lives, apex) = (v[0] < MARK, v[(f & 3) as usize]);
+        v[0] |= u32::from(destroyed) << 31;
+        (lives, apex)
     }
 
     /// What a cell marked as destroyed was.
@@ -238,7 +241,7 @@ impl Complex {
 
     /// Marks a cell as destroyed, and says what it was.
     pub fn destroy(&mut self, c: u32) -> Cell {
-        self.mark(c, true);
+        self.cells[c as usize].v[0] |= MARK;
         self.marked(c)
     }
 

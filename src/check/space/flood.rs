@@ -88,8 +88,10 @@ pub struct Side {
     pub corners: [u32; 3],
     /// The corner opposite of the cell destroyed.
     pub inner: u32,
-    /// The facet beyond.
+    /// The facet beyond, and the corner opposite that.
     pub outer: u32,
+    /// See `outer`.
+    pub apex: u32,
 }
 
 /// A flood. Lists are kept to be used again.
@@ -114,13 +116,13 @@ impl Flood {
         let cell = mesh.destroy(first);
         let local = tuple.map(|v| self.number(mesh, v));
         let beyond = tuple.map(|v| cell.beyond[place(&cell, v)]);
-        self.cells.push(Flooded { slot: first, positive: true, v: tuple, beyond, local });
-        let (mut at, mut read) = (0, 0);
+        let mut here = Flooded { slot: first, positive: true, v: tuple, beyond, local };
+        let mut read = 0;
         loop {
-            read = self.look_around(mesh, at, bits, read);
-            let Some(&door) = self.doors.taken().get(at) else { break };
-            self.enter(mesh, door);
-            at += 1;
+            read = self.look_around(mesh, &here, bits, read);
+            self.cells.push(here);
+            let Some(&door) = self.doors.taken().get(self.cells.len() - 1) else { break };
+            here = self.enter(mesh, door);
         }
         ensure(read == bits.len(), Rule::Flood, || {
             ("a bit for each facet of the flood", format!("{} bits for {read} facets", bits.len()))
@@ -136,25 +138,26 @@ impl Flood {
 
     /// Reads what becomes of the facets of a cell. Bits beyond the end are 0.
     #[inline]
-    fn look_around(&mut self, mesh: &mut Complex, at: usize, bits: &Bits, mut read: u32) -> u32 {
-        let here = self.cells[at];
+    fn look_around(&mut self, mesh: &mut Complex, here: &Flooded, bits: &Bits, mut read: u32) -> u32 {
         self.doors.expect(4);
         self.sides.expect(4);
+        let from = self.cells.len() as u32;
         for (k, facet) in FACETS.iter().enumerate() {
             let outer = here.beyond[k];
-            let open = mesh.lives(outer >> 2);
             let bit = bits.get(read).unwrap_or(false);
+            // A cell that is not there is destroyed already.
+            let (open, apex) = mesh.meet(outer, bit);
             read += u32::from(open);
-            self.doors.offer(Door { through: outer, from: at as u32, position: k as u32 }, open & bit);
-            mesh.mark(outer >> 2, open & bit);
+            self.doors.offer(Door { through: outer, from, position: k as u32 }, open & bit);
             let [x, y, z] = facet.map(|i| here.local[i]);
             let corners = if here.positive { [x, y, z] } else { [y, x, z] };
-            self.sides.offer(Side { corners, inner: here.local[k], outer }, open & !bit);
+            self.sides.offer(Side { corners, inner: here.local[k], outer, apex }, open & !bit);
         }
         read
     }
 
-    fn enter(&mut self, mesh: &mut Complex, door: Door) {
+    #[inline]
+    fn enter(&mut self, mesh: &mut Complex, door: Door) -> Flooded {
         let slot = door.through >> 2;
         let cell = mesh.marked(slot);
         let own = cell.v[(door.through & 3) as usize];
@@ -163,12 +166,11 @@ impl Flood {
         let replaced =
             |old: &[u32; 4], new| [0, 1, 2, 3].map(|k| if k == door.position { new } else { old[k as usize] });
         let (v, local) = (replaced(&from.v, own), replaced(&from.local, number));
-        let beyond = v.map(|w| cell.beyond[place(&cell, w)]);
-        self.cells.push(Flooded { slot, positive: !from.positive, v, beyond, local });
+        Flooded { slot, positive: !from.positive, v, beyond: v.map(|w| cell.beyond[place(&cell, w)]), local }
     }
 
     /// The position of a vertex, which is added if it is not there.
-    #[inline]
+    #[inline(always)]
     fn number(&mut self, mesh: &mut Complex, v: u32) -> u32 {
         self.vertices.expect(1);
         let known = self.position(mesh, v);

@@ -47,12 +47,11 @@ impl Cavity {
         self.make(mesh, p)?;
         self.check_rim()?;
         self.look(mesh, p);
-        let infinite = self.flood.position(mesh, INFINITE);
-        for (side, &c) in self.flood.sides.taken().iter().zip(&self.made) {
-            if side.corners.contains(&infinite) {
-                check_ghost(mesh, c)?;
-            } else {
-                self.check_tetrahedron(mesh, side, c, ties)?;
+        for (k, (side, &c)) in (0..).zip(self.flood.sides.taken().iter().zip(&self.made)) {
+            let sphere = self.view.sphere(side.corners);
+            let beyond = self.flood.vertices.taken().len() as u32 + k;
+            if ties == Ties::Broken || !self.view.is_clear(&sphere, [side.inner, beyond]) {
+                self.check_cell(mesh, side, c, &sphere, beyond, ties)?;
             }
         }
         Ok(())
@@ -114,47 +113,40 @@ impl Cavity {
         })
     }
 
-    /// Sees the vertices from p.
+    /// Sees from p the vertices, and the corner beyond each facet of the rim.
     fn look(&mut self, mesh: &Complex, p: u32) {
-        self.view.begin(mesh.point(p), mesh.grain());
-        for &v in self.flood.vertices.taken() {
+        self.view.begin(mesh.point(p));
+        let beyond = self.flood.sides.taken().iter().map(|side| side.apex);
+        for v in self.flood.vertices.taken().iter().copied().chain(beyond) {
             if v == INFINITE { self.view.add_nowhere() } else { self.view.add(mesh.point(v)) }
         }
-        self.view.close();
+        self.view.close(mesh.grain());
     }
 
-    /// (1) and (5) for a new tetrahedron.
-    #[inline]
-    fn check_tetrahedron(&self, mesh: &Complex, side: &Side, c: u32, ties: Ties) -> Checked {
-        let sphere = self.view.sphere(side.corners);
-        let positive = self.view.orientation(&sphere).unwrap_or_else(|| {
-            let [x, y, z, p] = mesh.cell(c).v.map(|v| mesh.at(v));
+    /// (1), (4) and (5) for a new cell and its orthoball; `beyond` is the position of the corner beyond its facet of the rim.
+    fn check_cell(&self, mesh: &Complex, side: &Side, c: u32, sphere: &Sphere, beyond: u32, ties: Ties) -> Checked {
+        let cell = mesh.cell(c);
+        if !cell.is_finite() {
+            return check_ghost(mesh, c);
+        }
+        let positive = self.view.orientation(sphere).unwrap_or_else(|| {
+            let [x, y, z, p] = cell.v.map(|v| mesh.at(v));
             orient(x, y, z, p)
         });
         ensure(positive.is_positive(), Rule::Orientation, || {
-            ("a positively oriented tetrahedron", format!("{:?}", mesh.cell(c).tuple()))
+            ("a positively oriented tetrahedron", format!("{:?}", cell.tuple()))
         })?;
-        self.check_beyond(mesh, c, &sphere, side.outer, ties)?;
-        if ties == Ties::Broken {
-            // Each facet within the star from one side.
-            let beyond = mesh.cell(c).beyond;
-            return beyond
-                .iter()
-                .filter(|&&f| f >> 2 > c)
-                .try_for_each(|&f| self.check_beyond(mesh, c, &sphere, f, ties));
+        check_empty(mesh, c, side.apex, self.view.side(sphere, beyond), ties)?;
+        if ties == Ties::Free {
+            let inner = self.flood.vertices.taken()[side.inner as usize];
+            return check_empty(mesh, c, inner, self.view.side(sphere, side.inner), ties);
         }
-        let inner = self.flood.vertices.taken()[side.inner as usize];
-        if inner == INFINITE {
-            return Ok(());
+        // Each facet within the star from one side.
+        for &f in cell.beyond.iter().filter(|&&f| f >> 2 > c && f != side.outer) {
+            let q = mesh.apex(f);
+            check_empty(mesh, c, q, self.view.side(sphere, self.flood.position(mesh, q)), ties)?;
         }
-        check_empty(mesh, c, inner, self.view.side_of(&sphere, side.inner), ties)
-    }
-
-    /// That the corner beyond a facet is not in conflict with a new tetrahedron.
-    #[inline]
-    fn check_beyond(&self, mesh: &Complex, c: u32, sphere: &Sphere, facet: u32, ties: Ties) -> Checked {
-        let q = mesh.apex(facet);
-        if q == INFINITE { Ok(()) } else { check_empty(mesh, c, q, self.view.side(sphere, mesh.point(q)), ties) }
+        Ok(())
     }
 
     /// (6): adds every vertex that is no more to `lost`, having proved that it is hidden.
@@ -201,6 +193,9 @@ impl Cavity {
 /// That q is not in conflict with a new tetrahedron; its side, if that is known.
 #[inline]
 fn check_empty(mesh: &Complex, c: u32, q: u32, known: Option<Sign>, ties: Ties) -> Checked {
+    if q == INFINITE {
+        return Ok(());
+    }
     let side = known.unwrap_or_else(|| side(&mesh.corners(c), &mesh.point(q)));
     let conflict = match (side, ties) {
         (Sign::Zero, Ties::Broken) => tie_in_conflict(&mesh.corners(c), &mesh.point(q)),

@@ -59,11 +59,17 @@ pub(super) fn depth<N: Number>(t: &Corners, q: &WeightedPoint) -> N {
     along(0) + along(1) + along(2) - volume * lift(&x, q)
 }
 
+/// What a value whose monomials have magnitudes of sum `size` is off by at most: 20 2^-53 `size`.
+#[inline]
+pub(super) fn error(size: f64) -> f64 {
+    const TINY: f64 = 1e-300;
+    size * (f64::EPSILON * 10.0) + TINY
+}
+
 /// The sign of a value that is off by less than 20 2^-53 `size`.
 #[inline]
 pub(super) fn certain(value: f64, size: f64) -> Option<Sign> {
-    const TINY: f64 = 1e-300;
-    let error = size * (f64::EPSILON * 10.0) + TINY;
+    let error = error(size);
     if value > error {
         Some(Sign::Positive)
     } else if value < -error {

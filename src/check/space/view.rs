@@ -9,7 +9,7 @@
 //! On grids values are exact, ties included. Let coordinates be multiples of g, a power of two, and weights of g^2; let rows be below 2^9 g and lifts with their parts below
 //! 2^20 g^2. Then all numbers on the way are multiples of g, g^2, ... g^5, and no sum exceeds 24 2^47 g^5 < 2^53 g^5.
 
-use super::predicates::certain;
+use super::predicates::{certain, error};
 use crate::check::scale::power_of_two;
 use crate::model::{Sign, WeightedPoint};
 
@@ -24,53 +24,48 @@ pub type Sphere = [f64; 4];
 pub struct View {
     from: WeightedPoint,
     rows: Vec<Row>,
-    /// Bounds of the rows.
+    /// Bounds of the rows: X, Y, Z, S.
     reach: Row,
-    /// 6 Y Z S, 6 Z X S, 6 X Y S, 6 X Y Z.
-    factors: Row,
-    /// 24 X Y Z S.
-    size: f64,
-    /// Rows below make exact values.
-    exact_below: Row,
+    /// 6 X Y Z and 24 X Y Z S.
+    sizes: [f64; 2],
+    /// Values below are certainly negative: an orientation's determinant, a side's value.
+    negative_below: [f64; 2],
+    /// Whether all values are exact.
+    exact: bool,
 }
 
 impl View {
-    /// A view from p, of nothing yet. All points are multiples of 2^`grain` (weights of its square).
-    pub fn begin(&mut self, p: WeightedPoint, grain: i32) {
+    /// A view from p, of nothing yet.
+    pub fn begin(&mut self, p: WeightedPoint) {
         self.from = p;
         self.rows.clear();
         self.reach = [0.0; 4];
-        let g = power_of_two(grain);
-        self.exact_below = [512.0 * g, 512.0 * g, 512.0 * g, 1_048_576.0 * g * g];
     }
 
     /// Adds a point. Those added are named by their positions.
     #[inline]
     pub fn add(&mut self, q: WeightedPoint) {
-        let (row, reach) = self.see(q);
-        self.rows.push(row);
-        self.reach = [0, 1, 2, 3].map(|k: usize| if reach[k] > self.reach[k] { reach[k] } else { self.reach[k] });
+        let [x, y, z] = [q.at.x - self.from.at.x, q.at.y - self.from.at.y, q.at.z - self.from.at.z];
+        let square = x * x + y * y + z * z;
+        let weight = q.weight - self.from.weight;
+        self.rows.push([x, y, z, square - weight]);
+        let row = [x.abs(), y.abs(), z.abs(), square + weight.abs()];
+        self.reach = [0, 1, 2, 3].map(|k: usize| if row[k] > self.reach[k] { row[k] } else { self.reach[k] });
     }
 
-    /// Adds the infinite vertex, which nothing is asked about.
+    /// Adds the infinite vertex, of which nothing is certain.
     pub fn add_nowhere(&mut self) {
         self.rows.push([0.0; 4]);
     }
 
-    /// Bounds what was added.
-    pub fn close(&mut self) {
+    /// Bounds what was added. All points are multiples of 2^`grain`, weights of its square.
+    pub fn close(&mut self, grain: i32) {
         let [x, y, z, s] = self.reach;
-        self.factors = [6.0 * (y * z) * s, 6.0 * (z * x) * s, 6.0 * (x * y) * s, 6.0 * (x * y) * z];
-        self.size = 4.0 * self.factors[3] * s;
-    }
-
-    /// A point seen from p, and the magnitudes of that.
-    #[inline]
-    fn see(&self, q: WeightedPoint) -> (Row, Row) {
-        let [x, y, z] = [q.at.x - self.from.at.x, q.at.y - self.from.at.y, q.at.z - self.from.at.z];
-        let square = x * x + y * y + z * z;
-        let weight = q.weight - self.from.weight;
-        ([x, y, z, square - weight], [x.abs(), y.abs(), z.abs(), square + weight.abs()])
+        let volume = 6.0 * (x * y) * z;
+        self.sizes = [volume, 4.0 * volume * s];
+        self.negative_below = self.sizes.map(|size| -error(size));
+        let g = power_of_two(grain);
+        self.exact = x.max(y).max(z) < 512.0 * g && s < 1_048_576.0 * g * g;
     }
 
     /// The orthoball of three of the points and p.
@@ -84,45 +79,40 @@ impl View {
         [-c[0], -c[1], -c[2], u[0] * vw[0] + u[1] * vw[1] + u[2] * vw[2]]
     }
 
+    /// Whether an orthoball's tetrahedron is certainly positive, and two points are certainly farther than the orthoball.
+    #[inline]
+    pub fn is_clear(&self, s: &Sphere, points: [u32; 2]) -> bool {
+        let [determinant, value] = self.negative_below;
+        s[3] < determinant && points.into_iter().all(|k| self.value(s, k) < value)
+    }
+
     /// Whether the tetrahedron of an orthoball is positively oriented, if that is certain.
-    #[inline]
     pub fn orientation(&self, s: &Sphere) -> Option<Sign> {
-        self.sign(-s[3], self.factors[3], [0.0; 4])
+        self.sign(-s[3], self.sizes[0])
     }
 
-    /// The side of a point added: positive strictly nearer than the orthoball; if that is certain.
+    /// The side of a point: positive strictly nearer than the orthoball; if that is certain.
     #[inline]
-    pub fn side_of(&self, s: &Sphere, k: u32) -> Option<Sign> {
-        self.sign(dot(s, &self.rows[k as usize]), self.size, [0.0; 4])
+    pub fn side(&self, s: &Sphere, k: u32) -> Option<Sign> {
+        self.sign(self.value(s, k), self.sizes[1])
     }
 
-    /// The same of any point.
     #[inline]
-    pub fn side(&self, s: &Sphere, q: WeightedPoint) -> Option<Sign> {
-        let (row, reach) = self.see(q);
-        self.sign(dot(s, &row), dot(&self.factors, &reach), reach)
+    fn value(&self, s: &Sphere, k: u32) -> f64 {
+        let q = &self.rows[k as usize];
+        (s[0] * q[0] + s[1] * q[1]) + (s[2] * q[2] + s[3] * q[3])
     }
 
-    /// The sign of a value, whose monomials sum up to `size` at most, made from rows within the reach and another one.
+    /// The sign of a value whose monomials have magnitudes of sum `size` at most.
     #[inline]
-    fn sign(&self, value: f64, size: f64, other: Row) -> Option<Sign> {
-        certain(value, size).or_else(|| {
-            let exact = |k: usize| self.reach[k].max(other[k]) < self.exact_below[k];
-            let all = exact(0) && exact(1) && exact(2) && exact(3);
-            all.then_some(if value == 0.0 {
-                Sign::Zero
-            } else if value > 0.0 {
-                Sign::Positive
-            } else {
-                Sign::Negative
-            })
-        })
+    fn sign(&self, value: f64, size: f64) -> Option<Sign> {
+        match value {
+            0.0 if self.exact => Some(Sign::Zero),
+            value if value > 0.0 && self.exact => Some(Sign::Positive),
+            value if value < 0.0 && self.exact => Some(Sign::Negative),
+            value => certain(value, size),
+        }
     }
-}
-
-#[inline]
-fn dot(a: &Row, b: &Row) -> f64 {
-    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }
 
 /// The largest e such that coordinates of p are multiples of 2^e, its weight of 2^2e; at most 200.
