@@ -71,6 +71,38 @@ const HEAVIER: &str = r#"
 {"event":"end","counts":{"vertices":5,"hidden":1,"duplicates":0,"removed":1,"simplices":4},"mesh":"49e087289f48e25c019fb51977aefc3e8ab92c0bcd361e5dc858ff98782c59c9","trace":"24bd327b1efeae609559dfc2bf1b5534e7c9e6261cf0988b84759f420f3f8857"}
 "#;
 
+/// A hidden point hidden beside its twin, which is taken out before the end.
+const TWIN: &str = r#"
+{"format":"orthoball-trace","version":1,"algorithm":"regular","weighted":true,"permuted":false,"scale":0}
+{"start":0}
+{"vertex":[0.0,0.0,0.0]}
+{"i":0,"event":"raise","id":0,"apexes":["+x","+y","+z"]}
+{"vertex":[4.0,0.0,0.0]}
+{"i":1,"event":"raise","id":1,"apexes":["+y","+z"]}
+{"vertex":[0.0,4.0,0.0]}
+{"i":2,"event":"raise","id":2,"apexes":["+z"]}
+{"vertex":[0.0,0.0,4.0]}
+{"i":3,"event":"raise","id":3,"apexes":[]}
+{"vertex":[1.0,1.0,1.0],"weight":3.0}
+{"i":4,"event":"insert","id":4,"first":[0,1,2,3],"flood":"0000"}
+{"vertex":[1.0,1.0,0.75]}
+{"i":5,"event":"hide","id":5,"cell":[0,1,2,4]}
+{"vertex":[1.0,1.0,0.75]}
+{"i":6,"event":"hide","id":6,"cell":[0,1,2,4]}
+{"remove":5}
+{"i":7,"event":"remove","id":5,"created":[]}
+{"event":"end","counts":{"vertices":5,"hidden":1,"duplicates":0,"removed":1,"simplices":4},"mesh":"bab535cb1bba8096db013e014fc694660f0fae3db9fc8f6f5ce2b34192c2259f","trace":"907e3513899322812963138c53fb676bccc1232de84d43f98694708768b83d58"}
+"#;
+
+#[test]
+fn twins_are_refused_by_strict_verification() {
+    let records: Vec<Record> = Reader::new(TWIN.trim_start().as_bytes()).collect::<Result<_, _>>().expect("a trace");
+    match verify(&records, Options { strict: true, digests: true }) {
+        Verdict::Rejected(r) => assert_eq!((r.event, r.rule), (Place::Event(6), Rule::Duplicate), "{r:?}"),
+        other => panic!("{other:?}"),
+    }
+}
+
 #[test]
 fn forgeries_are_refused_where_they_go_wrong() {
     // Plainly the lost vertex is found in the orthoball of a new cell, strictly it is missed, since the neighbors of that are new.

@@ -111,8 +111,7 @@ impl Checker3 {
                 })?;
                 let scaled = self.scaled(*point)?;
                 self.inputs.extend(*input);
-                self.replay.mesh.add_point(scaled);
-                self.replay.points.add();
+                self.replay.add_point(scaled);
                 Ok(())
             }
             Record3::Weight { id, weight } => {
@@ -186,7 +185,6 @@ impl Checker3 {
                 ensure(end.counts == own, Rule::Counts, || (format!("{own:?}"), format!("{:?}", end.counts)))?;
                 self.check_inputs()?;
                 if self.options.strict {
-                    claims::check_hidden_differ(&self.replay)?;
                     let euler = if self.replay.is_empty() { 0 } else { euler_characteristic(&self.replay.mesh) };
                     ensure(euler == 0, Rule::Euler, || ("0", format!("{euler}")))?;
                 }

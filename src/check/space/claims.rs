@@ -23,18 +23,6 @@ pub fn check_points(replay: &Replay) -> Checked {
     Ok(())
 }
 
-/// Of hidden points no two have the same place and weight: one of them is a duplicate.
-pub fn check_hidden_differ(replay: &Replay) -> Checked {
-    let key = |p: WeightedPoint| [p.at.x, p.at.y, p.at.z, p.weight].map(f64::to_bits);
-    let hidden = replay.points.iter().filter(|(_, s)| *s == State::Hidden);
-    let mut all: Vec<_> = hidden.map(|(v, _)| (key(replay.mesh.point(v)), v)).collect();
-    all.sort_unstable();
-    let twins = all.windows(2).find(|pair| pair[0].0 == pair[1].0);
-    twins.map_or(Ok(()), |pair| {
-        broken(Rule::Duplicate, "a duplicate", format!("{:?} and {:?} hidden", id(pair[0].1), id(pair[1].1)))
-    })
-}
-
 /// Counts.
 pub fn counts(replay: &Replay) -> Counts3 {
     let mut counts = Counts3 { simplices: replay.mesh.tetrahedra().count() as u32, ..Counts3::default() };

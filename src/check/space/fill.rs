@@ -5,7 +5,8 @@
 //!
 //! Tested: (1) the filling leaves no facet open; (2) its tetrahedra are positively oriented; (3) the vertex is on or beyond the plane of every new facet of the hull; (4) the hull is
 //! convex at every edge of those; (5) orthoballs are empty across every facet of a new tetrahedron. They suffice: by (3) putting the vertex back would add to what is
-//! covered, so nothing is covered more than once; what remains is connected facet by facet, and convex by (4), and all vertices of the star are in it. By (5) it is regular.
+//! covered, so nothing is covered more than once. What remains is connected facet by facet: a part without an old facet of the hull would have the vertex on or beyond the
+//! planes of all of its facets, which no body has; and the old facets without the vertex are a disc, connected by edges. It is convex by (4), and all vertices of the star are in it. By (5) it is regular.
 
 use super::certificate::{Ties, check_convex, conflict};
 use super::complex::{Cell, Complex, INFINITE, NONE, id, number};

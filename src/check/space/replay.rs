@@ -8,9 +8,9 @@ use super::hidden::{Points, State};
 use super::insert::Cavity;
 use super::predicates::orient;
 use crate::check::verdict::{Checked, Rule, broken, ensure};
-use crate::model::{Point3, Sign, Tetrahedron, VertexId};
+use crate::model::{Point3, Sign, Tetrahedron, VertexId, WeightedPoint};
 use crate::trace::{Apex, Bits, Event3};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The state of a replay.
 #[derive(Clone, Debug)]
@@ -25,6 +25,8 @@ pub struct Replay {
     pub weighted: bool,
     /// A point that waits for the event that takes it out, and its new weight if it is to come back.
     pub pending: Option<(u32, Option<f64>)>,
+    /// Strict: who has, or had, this place and weight.
+    alike: BTreeMap<[u64; 4], Vec<u32>>,
     ties: Ties,
     cavity: Cavity,
 }
@@ -38,6 +40,7 @@ impl Replay {
             apexes: 0,
             weighted: false,
             pending: None,
+            alike: BTreeMap::new(),
             ties: if strict { Ties::Broken } else { Ties::Free },
             cavity: Cavity::default(),
         }
@@ -50,6 +53,37 @@ impl Replay {
     /// Whether there is no simplex.
     pub fn is_empty(&self) -> bool {
         self.mesh.slot_count() == 0
+    }
+
+    // Points.
+
+    /// Adds a point that no event has placed.
+    pub fn add_point(&mut self, p: WeightedPoint) {
+        let v = self.mesh.add_point(p);
+        self.points.add();
+        self.note_alike(v);
+    }
+
+    fn set_weight(&mut self, v: u32, weight: f64) {
+        self.mesh.set_weight(v, weight);
+        self.note_alike(v);
+    }
+
+    fn note_alike(&mut self, v: u32) {
+        if self.strict() {
+            self.alike.entry(bits(self.mesh.point(v))).or_default().push(v);
+        }
+    }
+
+    /// Strict: that no hidden point has the place and weight of p, which would be its duplicate.
+    fn check_alone(&self, p: u32) -> Checked {
+        let at = self.mesh.point(p);
+        let alike = self.alike.get(&bits(at)).into_iter().flatten().copied();
+        let twin =
+            alike.filter(|&v| v != p && self.mesh.point(v) == at).find(|&v| self.points.state(v) == State::Hidden);
+        twin.map_or(Ok(()), |v| {
+            broken(Rule::Duplicate, format!("a duplicate of {:?}", id(v)), format!("{:?} hidden", id(p)))
+        })
     }
 
     // The start.
@@ -120,7 +154,7 @@ impl Replay {
     /// A point gets another weight: when it is taken out, or at once if it was.
     pub fn reweigh(&mut self, v: u32, weight: f64) {
         if self.points.state(v) == State::Removed {
-            self.mesh.set_weight(v, weight);
+            self.set_weight(v, weight);
             self.points.set(v, State::Free);
         } else {
             self.pending = Some((v, Some(weight)));
@@ -222,6 +256,7 @@ impl Replay {
             ("a point that is in no conflict", format!("{:?} in conflict with {cell:?}", id(p)))
         })?;
         if self.strict() {
+            self.check_alone(p)?;
             let last = self.last_around(c, at.at);
             ensure(last == cell, Rule::Canonical, || (format!("{last:?}"), format!("{cell:?}")))?;
         }
@@ -306,7 +341,7 @@ impl Replay {
     fn gone(&mut self, v: u32) {
         match self.pending.take().and_then(|(_, weight)| weight) {
             Some(weight) => {
-                self.mesh.set_weight(v, weight);
+                self.set_weight(v, weight);
                 self.points.set(v, State::Free);
             }
             None => self.points.set(v, State::Removed),
@@ -445,6 +480,10 @@ impl Replay {
         }
         Ok(())
     }
+}
+
+fn bits(p: WeightedPoint) -> [u64; 4] {
+    [p.at.x, p.at.y, p.at.z, p.weight].map(f64::to_bits)
 }
 
 /// The number of the k-th apex.
