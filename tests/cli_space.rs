@@ -124,7 +124,8 @@ fn doctor_of_points() {
         .map(|e| (e["kind"].as_str().unwrap(), e["line"].as_u64().unwrap_or(0)))
         .collect();
     assert_eq!(found, [("duplicate", 7), ("hidden", 6)]);
-    assert_eq!(said["findings"][0]["elements"], serde_json::json!([5, 1]));
+    assert_eq!(said["findings"][0]["elements"], serde_json::json!([{"vertex": 5}, {"vertex": 1}]));
+    assert_eq!(said["findings"][0]["lines"], serde_json::json!([7, 3]));
     // Errors of syntax and of range, with their lines.
     for (name, text, line) in [("nan.xyz", "0 0 0\n0 nan 0\n", 2), ("huge.xyz", "0 0 0\n1 0 0\n0 1e300 0\n", 3)] {
         fs::write(f.join(name), text).unwrap();
@@ -286,4 +287,199 @@ fn an_input_binds_what_happens_to_it() {
     expect(&f, "verify --no-digest --strict t.jsonl", 0);
     let verdict = json(&f, "verify --no-digest --strict --input p.xyz --json t.jsonl", 1);
     assert_eq!((&verdict["verdict"], &verdict["rule"]), (&"rejected".into(), &"Input".into()));
+
+/// Points of a plane and of space, with the files that a mesh of either consists of.
+const PLANE: &str = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n.5 2 0\n";
+
+#[test]
+fn files_of_an_earlier_mesh_do_not_stay() {
+    let f = folder("space_stale");
+    fs::write(f.join("plane.xyz"), PLANE).unwrap();
+    fs::write(f.join("p.xyz"), xyz(30)).unwrap();
+    let run = |points: &str, name: &str| json(&f, &format!("triangulate {points} -o {name} --json"), 0);
+    let cells = run("p.xyz", "m.ele")["counts"]["cells"].clone();
+    let read = |name: &str| json(&f, &format!("check {name} --json --claims valid"), 0)["cells"].clone();
+    assert_eq!(read("m.ele"), cells);
+    // Of the first mesh only the tetrahedra, of the second only the triangles.
+    let done = run("plane.xyz", "m.node");
+    assert_eq!(done["files"], serde_json::json!(["m.ele", "m.face", "m.node"]));
+    assert_eq!([read("m.ele"), read("m.node")], [0, 0]);
+    expect(&f, "convert m.face three.off", 0);
+    let off = fs::read_to_string(f.join("three.off")).unwrap();
+    assert_eq!(off.lines().nth(1), Some("5 3 0"), "{off}");
+    // And back: no triangle is left.
+    run("p.xyz", "m.node");
+    assert_eq!((read("m.node"), fs::read_to_string(f.join("m.face")).unwrap()), (cells, "0 1\n".into()));
+    // What is named is there, whatever the dimension.
+    run("plane.xyz", "t.ele");
+    run("p.xyz", "u.face");
+    assert!(f.join("t.ele").exists() && f.join("u.face").exists());
+    // Points do not go beside a mesh, of which they would be the vertices.
+    expect(&f, "convert plane.xyz u.node", 2);
+    expect(&f, "convert plane.xyz v.node", 0);
+}
+
+#[test]
+fn nothing_is_converted_onto_itself() {
+    let f = folder("space_itself");
+    fs::write(f.join("w.xyz"), "0 0 0 5\n1 0 0 5\n0 1 0 5\n0 0 1 5\n").unwrap();
+    fs::write(f.join("g.poly"), "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n").unwrap();
+    expect(&f, "triangulate w.xyz --weights 4 -o m.ele -o m.vtu --trace t.obt", 0);
+    expect(&f, "mesh g.poly -o plane.vtu -o plane.edge", 0);
+    expect(&f, "convert w.xyz v.node --weights 4", 0);
+    fs::create_dir(f.join("sub")).unwrap();
+    let before: Vec<_> = names(&f).iter().map(|name| fs::read(f.join(name)).ok()).collect();
+    for (from, to) in [
+        ("w.xyz", "w.xyz"),
+        ("w.xyz", "./w.xyz"),
+        ("w.xyz", "sub/../w.xyz"),
+        ("v.node", "v.node"),
+        ("g.poly", "g.poly"),
+        ("m.vtu", "m.vtu"),
+        ("m.ele", "m.node"),
+        ("m.node", "m.ele"),
+        ("m.node", "m.face"),
+        ("t.obt", "t.obt"),
+        ("plane.vtu", "plane.vtu"),
+        ("plane.edge", "plane.ele"),
+    ] {
+        let said = String::from_utf8(expect(&f, &format!("convert {from} {to}"), 2).stderr).unwrap();
+        assert!(said.contains("would be written over"), "{from} {to}: {said}");
+    }
+    assert_eq!(names(&f).iter().map(|name| fs::read(f.join(name)).ok()).collect::<Vec<_>>(), before);
+}
+
+#[test]
+fn lost_weights_are_told() {
+    let f = folder("space_lost");
+    fs::write(f.join("w.xyz"), "0 0 0 5\n1 0 0 6\n0 1 0 5\n0 0 1 5\n").unwrap();
+    let notes = |arguments: &str| {
+        let said = String::from_utf8(expect(&f, arguments, 0).stderr).unwrap();
+        said.matches("has no place for weights").count()
+    };
+    assert_eq!(notes("triangulate w.xyz --weights 4 -o w.mesh -o w.off -o w.vtu"), 2);
+    assert_eq!(notes("triangulate w.xyz -o v.mesh -o v.off"), 0);
+    assert_eq!(notes("convert w.vtu x.mesh"), 1);
+    assert_eq!(notes("convert w.xyz x.off --weights 4"), 1);
+    assert_eq!(notes("convert w.vtu x.vtk"), 0);
+}
+
+#[test]
+fn triangles_of_a_plane_face_one_way() {
+    let f = folder("space_facing");
+    fs::write(f.join("s.xyz"), PLANE).unwrap();
+    for name in ["s.vtu", "s.msh", "s.off"] {
+        expect(&f, &format!("triangulate s.xyz -o {name}"), 0);
+        expect(&f, &format!("check {name} --claims valid,orientation,delaunay"), 0);
+    }
+    // A tilted plane, and planes parallel to axes: in space all normals agree.
+    for (name, map) in [
+        ("tilted", (|x, y| [x, y, x - y]) as fn(f64, f64) -> [f64; 3]),
+        ("down", |x, y| [y, x, -3.0]),
+        ("upright", |x, y| [x, 2.0 * x, y]),
+        ("across", |x, y| [0.0, x, y]),
+    ] {
+        let points: Vec<[f64; 3]> =
+            (0..25).map(|i| map(f64::from(i % 5) * 1.5, f64::from(i / 5 * (1 + i % 3)))).collect();
+        let text: String = points.iter().map(|p| format!("{} {} {}\n", p[0], p[1], p[2])).collect();
+        fs::write(f.join("p.xyz"), text).unwrap();
+        expect(&f, "triangulate p.xyz -o p.off", 0);
+        let off = fs::read_to_string(f.join("p.off")).unwrap();
+        let normal = |row: &str| {
+            let ids: Vec<usize> = row.split(' ').skip(1).map(|id| id.parse().unwrap()).collect();
+            let [u, v] = [1, 2].map(|k| [0, 1, 2].map(|j| points[ids[k]][j] - points[ids[0]][j]));
+            [2, 1, 0].map(|j| u[(j + 1) % 3] * v[(j + 2) % 3] - u[(j + 2) % 3] * v[(j + 1) % 3])
+        };
+        let normals: Vec<[f64; 3]> = off.lines().skip(2 + points.len()).map(normal).collect();
+        assert!(normals.len() > 8, "{name}: {off}");
+        for n in normals {
+            // The first coordinate that is not zero, of z, y, x.
+            assert!(n.into_iter().find(|&x| x != 0.0).is_some_and(|x| x > 0.0), "{name}: {n:?}");
+        }
+    }
+}
+
+#[test]
+fn points_of_a_mesh() {
+    let f = folder("space_points_of");
+    let weighted = "0 0 0 5\n1 0 0 6\n0 1 0 5\n0 0 1 5\n";
+    fs::write(f.join("w.xyz"), weighted).unwrap();
+    expect(&f, "triangulate w.xyz --weights 4 -o m.vtu -o m.vtk -o m.msh -o m.mesh -o m.ele", 0);
+    for (mesh, options) in
+        [("m.vtu", ""), ("m.vtk", ""), ("m.msh", ""), ("m.ele", "--weights 5"), ("m.node", "--radii 5")]
+    {
+        for points in ["p.xyz", "p.csv", "p.ply", "p.npy"] {
+            expect(&f, &format!("convert {mesh} {points} {options}"), 0);
+            expect(&f, &format!("convert {points} back.xyz --weights 4"), 0);
+            if mesh != "m.node" {
+                assert_eq!(fs::read_to_string(f.join("back.xyz")).unwrap(), weighted, "{mesh} {points}");
+            }
+        }
+    }
+    expect(&f, "convert m.mesh p.xyz", 0);
+    assert_eq!(fs::read_to_string(f.join("p.xyz")).unwrap(), "0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
+    // Points in one plane keep their third coordinate.
+    fs::write(f.join("flat.xyz"), "0 0 3\n1 0 3\n0 1 3\n").unwrap();
+    expect(&f, "triangulate flat.xyz -o flat.vtu", 0);
+    expect(&f, "convert flat.vtu again.xyz", 0);
+    assert_eq!(fs::read_to_string(f.join("again.xyz")).unwrap(), "0 0 3\n1 0 3\n0 1 3\n");
+    // A mesh is not triangulated; the remedy is told.
+    for name in ["m.vtu", "m.msh", "m.mesh", "m.vtk"] {
+        for command in ["triangulate", "doctor"] {
+            let said = String::from_utf8(expect(&f, &format!("{command} {name}"), 2).stderr).unwrap();
+            for word in [".xyz", ".csv", ".npy", ".ply", ".off", ".node", "convert"] {
+                assert!(said.contains(word), "{said}");
+            }
+        }
+    }
+}
+
+#[test]
+fn json_whatever_the_outcome() {
+    let f = folder("space_json");
+    fs::write(f.join("p.xyz"), xyz(40)).unwrap();
+    fs::write(f.join("bad.vtu"), "<VTKFile").unwrap();
+    for arguments in [
+        "triangulate none.xyz",
+        "triangulate bad.vtu",
+        "triangulate p.xyz -o p.xyz",
+        "mesh none.poly",
+        "doctor none.xyz",
+        "check none.vtu",
+        "check bad.vtu",
+        "verify none.obt",
+    ] {
+        let said = json(&f, &format!("{arguments} --json"), 2);
+        let finding = &said["findings"][0];
+        assert_eq!((&said["outcome"], &finding["severity"]), (&"refused".into(), &"error".into()), "{arguments}");
+        assert!(
+            finding["message"].as_str().unwrap().contains("none")
+                || arguments.contains("bad")
+                || arguments.contains("-o")
+        );
+    }
+    // Numbers of things are whole, and steps are in order.
+    let done = json(&f, "triangulate p.xyz -o m.vtu --json", 0);
+    let said = json(&f, "check m.vtu --json --claims quality,topology", 0);
+    assert_eq!(done["quality"], said["claims"][0]["figures"]);
+    let steps = done["quality"]["dihedral_histogram_10_degrees"].as_array().unwrap();
+    let angles: u64 = steps.iter().map(|n| n.as_u64().unwrap()).sum();
+    assert_eq!((steps.len(), Some(angles)), (18, done["counts"]["cells"].as_u64().map(|n| 6 * n)));
+    assert!(said["claims"][1]["figures"].as_object().unwrap().values().all(Value::is_i64), "{said}");
+}
+
+#[test]
+fn a_closed_stdout_is_no_fault() {
+    let f = folder("space_pipe");
+    fs::write(f.join("p.xyz"), "1 1 1\n".repeat(20_000)).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_orthoball"))
+        .args(["doctor", "p.xyz"])
+        .current_dir(&f)
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), String::from_utf8(output.stderr).unwrap()), (Some(0), String::new()));
 }

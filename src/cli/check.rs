@@ -3,12 +3,14 @@
 use super::args::CheckArgs;
 use super::files::read_any_mesh;
 use super::input::load;
+use super::report::figures;
 use super::{Answer, Failure, Status, data, talk};
 use crate::arith::angle::rho2_from_min_angle;
-use crate::audit::{Claim, Named, Options, Subject, Verdict, audit, space};
+use crate::audit::{Claim, ClaimReport, Named, Options, Subject, Verdict, audit, space};
 use crate::io::{AnyMesh, ForeignMesh, ForeignMesh3};
 use crate::model::Fill;
-use serde_json::json;
+use serde::Serialize;
+use serde_json::{Value, json};
 use std::time::Instant;
 
 /// What is checked unless claims are named. A refined mesh is Delaunay only as far as its constraints allow, and a mesh of another program may
@@ -62,7 +64,7 @@ fn in_space(args: &CheckArgs, mesh: &ForeignMesh3) -> Answer {
         data(json!({
             "verdict": verdict,
             "vertices": mesh.points.len(), "cells": mesh.tetrahedra.len(),
-            "claims": report.claims, "seconds": seconds,
+            "claims": claims_json(&report.claims), "seconds": seconds,
         }))?;
     } else {
         data(report.to_string().trim_end())?;
@@ -108,12 +110,23 @@ fn plane(args: &CheckArgs, mesh: &ForeignMesh) -> Answer {
         data(json!({
             "verdict": verdict,
             "vertices": mesh.points.len(), "triangles": mesh.triangles.len(),
-            "claims": report.claims,
+            "claims": claims_json(&report.claims),
         }))?;
     } else {
         data(report.to_string().trim_end())?;
     }
     Ok(if verdict == Verdict::Holds { Status::Well } else { Status::No })
+}
+
+/// The answers for programs.
+fn claims_json<C: Serialize, W: Serialize>(claims: &[ClaimReport<C, W>]) -> Value {
+    let one = |c: &ClaimReport<C, W>| {
+        // Plain data has a JSON form.
+        let mut value = serde_json::to_value(c).expect("plain data");
+        value["figures"] = figures(&c.figures);
+        value
+    };
+    claims.iter().map(one).collect()
 }
 
 /// The claims of these names among all; the everyday ones if none is named.

@@ -1,18 +1,19 @@
 //! `convert`: between file formats.
 
 use super::args::ConvertArgs;
-use super::files::{Staged, extension, open, read, read_any_mesh};
+use super::files::{Staged, companion, extension, open, read, read_any_mesh};
 use super::input::read_input;
-use super::outputs::{check_names, spare_input3, stage, stage3};
+use super::outputs::{check_alone, spare_file, spare_input, spare_input3, stage, stage3, tell_lost};
 use super::{Answer, Failure, Status, talk};
 use crate::io::{self, AnyMesh, Format, point_dimension, write};
-use crate::model::Fill;
+use crate::model::{Fill, PointSet3};
 use crate::trace::{self, Reader, Sink, Writer};
 use std::path::Path;
 
 /// Converts a trace, an input or a mesh by the extensions of its two names. A `.poly` or `.node` file with an `.ele` file of the same name
 /// is a mesh.
 pub fn run(args: &ConvertArgs) -> Answer {
+    spare_file(&args.to, &args.from)?;
     let mut staged = Staged::default();
     match [&args.from, &args.to].map(|path| trace_format(path)) {
         [Some(_), Some(to)] => convert_trace(&args.from, &args.to, to, &mut staged)?,
@@ -68,16 +69,43 @@ fn points(args: &ConvertArgs, staged: &mut Staged) -> Result<(), Failure> {
     let input = io::read_points3(from, &read(&args.from)?, column.as_ref()).ok_or_else(known)?;
     let input = input.map_err(|e| Failure::at(&args.from, e))?;
     input.notes.iter().for_each(|note| talk(&note.text));
-    let bytes = io::write_points3(&input.set, to).ok_or_else(known)?;
+    write_points(&input.set, args, to, staged)
+}
+
+fn write_points(set: &PointSet3, args: &ConvertArgs, to: Format, staged: &mut Staged) -> Result<(), Failure> {
+    check_alone(&args.to)?;
+    if to.loses_weights() && set.weights.iter().any(|&w| w != 0.0) {
+        tell_lost(&args.to, "weights");
+    }
+    // The caller has seen to the format.
+    let bytes = io::write_points3(set, to).ok_or_else(|| Failure::at(&args.to, "no format of points"))?;
     staged.write(&args.to, &bytes)
 }
 
-/// A mesh of the plane or of space.
+/// The points of a mesh of space.
+fn points_of_mesh(args: &ConvertArgs, to: Format, staged: &mut Staged) -> Result<(), Failure> {
+    let known = || Failure::at(&args.from, "points of space are taken from .vtu, .vtk, .msh, .mesh, .node, .ele");
+    let from = Format::of(&args.from).ok_or_else(known)?;
+    let bytes = read(&args.from)?;
+    let mesh = io::read_mesh3(from, &bytes, args.column.column().as_ref(), companion(&args.from)).ok_or_else(known)?;
+    let mesh = mesh.map_err(|e| Failure::at(&args.from, e))?;
+    mesh.notes.iter().for_each(|note| talk(&note.text));
+    let [cells, triangles, edges] = [mesh.tetrahedra.len(), mesh.triangles.len(), mesh.edges.len()];
+    if cells + triangles + edges > 0 {
+        tell_lost(&args.to, "elements");
+    }
+    write_points(&mesh.point_set(), args, to, staged)
+}
+
+/// A mesh of the plane or of space, or its points where the other file holds no more.
 fn mesh(args: &ConvertArgs, staged: &mut Staged) -> Result<(), Failure> {
+    if let Some(format @ (Format::Xyz | Format::Csv | Format::Npy | Format::Ply)) = Format::of(&args.to) {
+        return points_of_mesh(args, format, staged);
+    }
     let to = std::slice::from_ref(&args.to);
     match read_any_mesh(&args.from, args.column.column().as_ref())? {
         AnyMesh::Plane(mesh) => {
-            check_names(to)?;
+            spare_input(to, &args.from)?;
             stage(to, &mesh.into_mesh(), None, staged)?;
         }
         AnyMesh::Space(mesh) => {

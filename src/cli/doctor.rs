@@ -1,7 +1,7 @@
 //! `doctor`: every finding in an input at once.
 
 use super::args::DoctorArgs;
-use super::input::load_examined;
+use super::input::{load_examined, require_points};
 use super::{Answer, Status, data, space};
 use crate::domain::Severity;
 use crate::model::Fill;
@@ -10,6 +10,7 @@ use serde_json::json;
 
 /// Lists all findings, errors first. Exit code 1 if there is an error among them.
 pub fn run(args: &DoctorArgs) -> Answer {
+    require_points(&args.input)?;
     let entries = if space::is_spatial(&args.input)? {
         space::examined(&args.input, args.column.column().as_ref())?
     } else {

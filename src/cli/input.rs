@@ -61,10 +61,33 @@ fn load_with(path: &Path, fill: Option<Fill>, make: fn(&Pslg, &Lines) -> Prepare
 
 /// Reads an input by its extension; the inner error is a fault of its content.
 pub fn read_input(path: &Path) -> Result<Result<Input, ReadError>, Failure> {
-    let known = || Failure::at(path, "inputs are .poly, .node, .wkt, .geojson");
+    let known = || {
+        let hint = if is_points(path) { "; `triangulate` takes points of space" } else { mesh_hint(path) };
+        Failure::at(path, format_args!("inputs are .poly, .node, .wkt, .geojson{hint}"))
+    };
     let format = Format::of(path).filter(|f| f.reads_pslg()).ok_or_else(known)?;
     let bytes = read(path)?;
     io::read_pslg(format, &bytes, companion(path)).ok_or_else(known)
+}
+
+fn is_points(path: &Path) -> bool {
+    Format::of(path).is_some_and(Format::reads_points3)
+}
+
+/// What to do with a mesh where points are wanted.
+fn mesh_hint(path: &Path) -> &'static str {
+    let mesh = Format::of(path).is_some_and(|f| f.reads_mesh() || f.reads_mesh3());
+    if mesh { "; of a mesh in space, `convert MESH points.csv` takes the points" } else { "" }
+}
+
+/// Refuses a file that holds no points, of the plane or of space. Errors: the formats that do.
+pub fn require_points(path: &Path) -> Result<(), Failure> {
+    if is_points(path) || Format::of(path).is_some_and(Format::reads_pslg) {
+        return Ok(());
+    }
+    let known =
+        "points are .xyz, .csv, .tsv, .npy, .ply, .off, .node in space, and .node, .poly, .wkt, .geojson in the plane";
+    Err(Failure::at(path, format_args!("{known}{}", mesh_hint(path))))
 }
 
 impl Loaded {
@@ -121,7 +144,7 @@ pub fn syntax(e: &ReadError) -> Entry {
     let column = (e.column > 0).then_some(e.column);
     let json = json!({
         "severity": "error", "kind": "syntax", "part": e.part, "elements": [], "coordinates": [],
-        "line": line, "column": column, "message": message, "fix": e.fix,
+        "line": line, "lines": Vec::from_iter(line), "column": column, "message": message, "fix": e.fix,
     });
     Entry { severity: Severity::Error, text: format!("error: {e}"), json }
 }
@@ -135,7 +158,8 @@ pub fn note(n: &Note) -> Entry {
     let line = (n.line > 0).then_some(n.line);
     let place = line.map_or(String::new(), |l| format!(" (line {l})"));
     let json = json!({
-        "severity": name, "kind": "format", "elements": [], "coordinates": [], "line": line, "message": n.text, "fix": "none needed",
+        "severity": name, "kind": "format", "elements": [], "coordinates": [], "line": line, "lines": Vec::from_iter(line),
+        "message": n.text, "fix": "none needed",
     });
     Entry { severity, text: format!("{name}: {}{place}", n.text), json }
 }

@@ -3,7 +3,7 @@
 use super::args::{KernelName, MeshArgs, OutArgs, RunArgs, TriangulateArgs};
 use super::convert::trace_format;
 use super::files::Staged;
-use super::input::{Loaded, load, load_examined};
+use super::input::{Loaded, load, load_examined, require_points};
 use super::outputs::{spare_input, stage};
 use super::parameters::parameters;
 use super::report::{self, Quality};
@@ -38,6 +38,7 @@ pub fn run(args: &MeshArgs) -> Answer {
 
 /// Triangulates an input.
 pub fn triangulate(args: &TriangulateArgs) -> Answer {
+    require_points(&args.points)?;
     if super::space::is_spatial(&args.points)? {
         return super::space::triangulate(args);
     }

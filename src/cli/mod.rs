@@ -22,9 +22,10 @@ mod watch;
 
 use args::{Arguments, Command};
 use clap::Parser;
+use serde_json::json;
 use std::ffi::OsString;
 use std::fmt;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 /// How a command that could do its work ended.
@@ -71,6 +72,14 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(status) => ExitCode::from(status as u8),
         Err(Failure(sentence)) => {
             talk(format_args!("orthoball: {sentence}"));
+            if wants_json(&arguments.command) {
+                let finding = json!({
+                    "severity": "error", "kind": "failure", "elements": [], "coordinates": [], "line": null, "lines": [],
+                    "message": sentence, "fix": null,
+                });
+                // A stdout that takes nothing is the failure, maybe.
+                let _ = data(json!({"outcome": "refused", "findings": [finding]}));
+            }
             ExitCode::from(2)
         }
     }
@@ -90,17 +99,31 @@ fn dispatch(command: &Command) -> Answer {
     }
 }
 
+fn wants_json(command: &Command) -> bool {
+    match command {
+        Command::Mesh(args) => args.out.json,
+        Command::Triangulate(args) => args.out.json,
+        Command::Verify(args) => args.json,
+        Command::Check(args) => args.json,
+        Command::Doctor(args) => args.json,
+        Command::Diff(args) => args.json,
+        Command::Reproduce(args) => args.json,
+        Command::Replay(_) | Command::Convert(_) => false,
+    }
+}
+
 /// A line on stderr. A closed stderr is no reason to fail.
 fn talk(line: impl fmt::Display) {
     let _ = writeln!(std::io::stderr(), "{}", printable(line));
 }
 
-/// A line on stdout.
+/// A line on stdout. Who has closed it has read enough, as `head` does.
 fn data(line: impl fmt::Display) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    writeln!(out, "{}", printable(line))
-        .and_then(|()| out.flush())
-        .map_err(|e| Failure::new(format_args!("stdout: {e}")))
+    match writeln!(out, "{}", printable(line)).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::new(format_args!("stdout: {e}"))),
+        _ => Ok(()),
+    }
 }
 
 /// A text without characters that a terminal would obey, which files may hold and errors quote. They become escapes that JSON reads, too.

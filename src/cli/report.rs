@@ -71,6 +71,26 @@ fn angles([a, b, c]: [Point2; 3]) -> [f64; 3] {
     [at(a, b, c), at(b, c, a), at(c, a, b)]
 }
 
+/// Figures of an audit for programs: whole numbers as such, and dihedral angles in steps of 10 degrees as one list.
+pub fn figures<'a>(figures: impl IntoIterator<Item = &'a (&'static str, f64)>) -> Value {
+    // The cast saturates; a fraction or a larger number does not survive it.
+    let whole = |x: f64| Some(x as i64).filter(|&n| n as f64 == x && n.abs() < 1 << 53);
+    let number = |x: f64| whole(x).map_or_else(|| json!(x), |n| json!(n));
+    let mut object = serde_json::Map::new();
+    let mut steps = Vec::new();
+    for &(name, x) in figures {
+        if name.starts_with("dihedral_from_") {
+            steps.push(number(x));
+        } else {
+            object.insert(name.into(), number(x));
+        }
+    }
+    if !steps.is_empty() {
+        object.insert("dihedral_histogram_10_degrees".into(), steps.into());
+    }
+    object.into()
+}
+
 /// The name of an outcome.
 pub fn outcome(outcome: Outcome) -> &'static str {
     match outcome {

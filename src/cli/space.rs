@@ -8,15 +8,16 @@ use super::convert::trace_format;
 use super::files::{Staged, open, read};
 use super::input::{Entry, finding, note, syntax, tell_refusal};
 use super::outputs::{spare_input3, stage3};
+use super::report::figures;
 use super::watch::{Limit, catch_interrupts};
 use super::{Answer, Failure, Status, data, talk};
 #[cfg(feature = "exact")]
 use crate::arith::ExactKernel;
 use crate::arith::FastKernel;
 use crate::audit::space::{Claim, Options, Subject, audit};
-use crate::domain::{Severity, normalise3};
+use crate::domain::{Element, Severity, normalise3};
 use crate::io::{self, Column, ForeignMesh3, Format, point_dimension};
-use crate::model::words::counted;
+use crate::model::words::{counted, listed};
 use crate::model::{PointSet3, PointState, Triangulation3, VertexId, WeightedPoint};
 use crate::refine::RunError;
 use crate::refine::regular::{Certificate, triangulate3};
@@ -94,16 +95,16 @@ pub fn examined(path: &Path, column: Option<&Column>) -> Result<Vec<Entry>, Fail
     let line = |v: VertexId| set.lines.get(v.index()).copied().filter(|&l| l > 0);
     let entry = |severity: Severity, kind: &str, elements: &[VertexId], message: String, fix: &str| {
         let coordinates: Vec<[f64; 3]> = elements.iter().map(|v| set.points[v.index()].to_array()).collect();
-        let line = elements.first().and_then(|&v| line(v));
+        let lines: Vec<u32> = elements.iter().filter_map(|&v| line(v)).collect();
         let name = if severity == Severity::Repair { "repair" } else { "note" };
-        let place = line.map_or(String::new(), |l| format!(" (line {l})"));
-        let ids: Vec<u32> = elements.iter().map(|v| v.0).collect();
+        let place = if lines.is_empty() { String::new() } else { format!(" ({})", listed("line", &lines, 8)) };
+        let elements: Vec<Element> = elements.iter().map(|&v| Element::Vertex(v)).collect();
         Entry {
             severity,
             text: format!("{name}: {message}{place}"),
             json: json!({
-                "severity": name, "kind": kind, "elements": ids, "coordinates": coordinates, "line": line,
-                "message": message, "fix": fix,
+                "severity": name, "kind": kind, "elements": elements, "coordinates": coordinates,
+                "line": lines.first(), "lines": lines, "message": message, "fix": fix,
             }),
         }
     };
@@ -430,7 +431,6 @@ impl Summary<'_> {
         let mesh = ForeignMesh3::from(self.t);
         let subject = Subject { points: &mesh.points, cells: &mesh.tetrahedra, ..Subject::default() };
         let report = audit(&subject, &Options { claims: &[Claim::Quality], ..Options::default() });
-        let figures = report.claims.iter().flat_map(|c| &c.figures);
-        figures.map(|(name, x)| (name.to_string(), json!(x))).collect::<serde_json::Map<_, _>>().into()
+        figures(report.claims.iter().flat_map(|c| &c.figures))
     }
 }

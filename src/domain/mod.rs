@@ -6,6 +6,7 @@
 
 mod angles;
 mod crossings;
+mod facing;
 mod finding;
 mod normalise;
 mod normalise3;
@@ -14,6 +15,7 @@ mod sweep;
 mod validate;
 
 pub use angles::{SmallAngle, angle_notes, small_angles};
+pub use facing::face_one_way;
 pub use finding::{Element, Finding, Findings, Kind, LISTED_PER_KIND, Severity, merge_findings};
 pub use normalise::{GREATEST_COORDINATE, LARGEST_SCALE, LEAST_COORDINATE, Scale, normalise};
 pub use normalise3::{GREATEST_WEIGHT, LEAST_WEIGHT, normalise3, normalise3_at};

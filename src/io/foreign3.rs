@@ -1,6 +1,7 @@
 //! A tetrahedral mesh as some program wrote it, with nothing taken for granted but that its indices exist.
 
 use super::{ForeignEdge, Note, NoteKind};
+use crate::domain::face_one_way;
 use crate::model::{Point3, PointSet3, Triangulation3, VertexId};
 
 /// A mesh of space from a file. Coordinates are in the units of the file; elements stand as given, in any orientation, perhaps degenerate.
@@ -122,7 +123,7 @@ fn retain<T>(items: &mut Vec<T>, keep: &[bool]) {
 }
 
 impl From<&Triangulation3> for ForeignMesh3 {
-    /// Simplices become elements of their dimension without markers; in dimension 0 there are points only. Weights are left out if all are 0.
+    /// Simplices become elements of their dimension without markers; in dimension 0 there are points only. Triangles face one way (`domain::face_one_way`). Weights are left out if all are 0.
     fn from(t: &Triangulation3) -> ForeignMesh3 {
         let mut mesh = ForeignMesh3 { points: t.points.iter().map(|p| p.at).collect(), ..ForeignMesh3::default() };
         if t.points.iter().any(|p| p.weight.to_bits() != 0) {
@@ -136,6 +137,7 @@ impl From<&Triangulation3> for ForeignMesh3 {
                 _ => {}
             }
         }
+        face_one_way(&mesh.points, mesh.triangles.iter_mut().map(|t| &mut t.corners));
         mesh
     }
 }

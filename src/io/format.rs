@@ -131,16 +131,22 @@ impl Format {
         self.reads_points3()
     }
 
-    /// The files that a mesh of space in this format consists of, by format; empty if the format holds no such mesh. `.face` and `.edge` stand beside `.ele` only
-    /// where there are triangles or edges, and `.ele` only where there are tetrahedra or neither of them.
+    /// Whether points written to it lose their weights.
+    pub fn loses_weights(self) -> bool {
+        matches!(self, Format::Medit | Format::Off)
+    }
+
+    /// The files that a mesh of space in this format consists of, by format, itself among them; empty if the format holds no such mesh. `.face` and `.edge`
+    /// stand beside `.ele` only where there are triangles or edges, and `.ele` only where there are tetrahedra or neither of them.
     pub fn files_of_mesh3(self, mesh: &ForeignMesh3) -> Vec<Format> {
         match self {
             Format::Node | Format::Ele | Format::Face | Format::Edge => {
                 let (faces, edges) = (!mesh.triangles.is_empty(), !mesh.edges.is_empty());
                 let mut files = vec![Format::Node];
-                files.extend((!mesh.tetrahedra.is_empty() || !(faces || edges)).then_some(Format::Ele));
-                files.extend(faces.then_some(Format::Face));
-                files.extend(edges.then_some(Format::Edge));
+                let cells = !mesh.tetrahedra.is_empty() || !(faces || edges);
+                files.extend((cells || self == Format::Ele).then_some(Format::Ele));
+                files.extend((faces || self == Format::Face).then_some(Format::Face));
+                files.extend((edges || self == Format::Edge).then_some(Format::Edge));
                 files
             }
             Format::Medit | Format::Msh | Format::Msh2 | Format::Vtu | Format::Vtk | Format::Off => vec![self],
