@@ -187,12 +187,16 @@ pub fn write_points3(set: &PointSet3, format: Format) -> Option<Vec<u8>> {
 
 /// The bytes of one file of a mesh of space; nothing if the format holds none.
 ///
-/// `.off` holds triangles only: those of the mesh, or the boundary of its tetrahedra if it lists none. `.mesh` has no place for weights, `.off` for nothing but coordinates and triangles.
+/// `.off` and `.face` hold triangles only: those of the mesh, or the boundary of its tetrahedra if it lists none. `.mesh` has no place for weights, `.off` for nothing but coordinates and triangles.
 pub fn write_mesh3(mesh: &ForeignMesh3, format: Format) -> Option<Vec<u8>> {
     Some(match format {
         Format::Node => write::points::node3(&mesh.point_set()),
         Format::Ele => write::tetgen::ele3(mesh),
-        Format::Face => write::tetgen::face(mesh),
+        Format::Face if mesh.triangles.is_empty() => write::tetgen::face(&mesh.boundary(), |_| 0),
+        Format::Face => {
+            let corners: Vec<_> = mesh.triangles.iter().map(|t| t.corners).collect();
+            write::tetgen::face(&corners, |i| mesh.triangles[i].marker)
+        }
         Format::Edge => write::tetgen::edge3(mesh),
         Format::Medit => write::medit(mesh),
         Format::Msh => write::msh3(mesh, write::MshVersion::V41),

@@ -115,7 +115,7 @@ fn triangulations() {
             let again = plain(read(format, &write_triangulation3(&t, format).unwrap()));
             assert_eq!(again, held(&mesh, format), "{format:?} in dimension {dimension}");
         }
-        let files = Format::Ele.files_of_mesh3(&mesh);
+        let files = Format::Node.files_of_mesh3(&mesh);
         let last = [Format::Ele, Format::Edge, Format::Face, Format::Ele][usize::from(dimension)];
         assert_eq!(files, [Format::Node, last]);
         let weights = Column::Weight(ColumnName::Number(5));

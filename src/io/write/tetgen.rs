@@ -19,13 +19,13 @@ pub fn ele3(mesh: &ForeignMesh3) -> Vec<u8> {
     out
 }
 
-/// The `.face` file: all triangles with their markers.
-pub fn face(mesh: &ForeignMesh3) -> Vec<u8> {
+/// The `.face` file: triangles with their markers.
+pub fn face(triangles: &[[VertexId; 3]], marker: impl Fn(usize) -> i32) -> Vec<u8> {
     let mut out = Vec::new();
-    end(field(field(&mut out, mesh.triangles.len()), 1));
-    for (i, t) in mesh.triangles.iter().enumerate() {
-        corners(&mut out, i, &t.corners);
-        end(field(&mut out, t.marker));
+    end(field(field(&mut out, triangles.len()), 1));
+    for (i, t) in triangles.iter().enumerate() {
+        corners(&mut out, i, t);
+        end(field(&mut out, marker(i)));
     }
     out
 }
