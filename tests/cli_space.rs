@@ -298,7 +298,7 @@ fn files_of_an_earlier_mesh_do_not_stay() {
     fs::write(f.join("p.xyz"), xyz(30)).unwrap();
     let run = |points: &str, name: &str| json(&f, &format!("triangulate {points} -o {name} --json"), 0);
     let cells = run("p.xyz", "m.ele")["counts"]["cells"].clone();
-    let read = |name: &str| json(&f, &format!("check {name} --json --claims valid"), 0)["cells"].clone();
+    let read = |name: &str| json(&f, &format!("check {name} --json --claims topology"), 0)["cells"].clone();
     assert_eq!(read("m.ele"), cells);
     // Of the first mesh only the tetrahedra, of the second only the triangles.
     let done = run("plane.xyz", "m.node");
