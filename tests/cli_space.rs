@@ -287,6 +287,7 @@ fn an_input_binds_what_happens_to_it() {
     expect(&f, "verify --no-digest --strict t.jsonl", 0);
     let verdict = json(&f, "verify --no-digest --strict --input p.xyz --json t.jsonl", 1);
     assert_eq!((&verdict["verdict"], &verdict["rule"]), (&"rejected".into(), &"Input".into()));
+}
 
 /// Points of a plane and of space, with the files that a mesh of either consists of.
 const PLANE: &str = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n.5 2 0\n";
