@@ -8,7 +8,7 @@ use super::super::star::Rim;
 use super::super::store::{Cell, FACET, FIRST, NONE, Regular3, Site, Status};
 use super::piece::Piece;
 use crate::arith::space::Kernel3;
-use crate::model::WeightedPoint;
+use crate::model::{Point3, Sign, WeightedPoint};
 use rayon::prelude::*;
 
 /// How many hidden points are searched from the same cell, one after the other: enough that the way to the first one does not matter.
@@ -149,7 +149,7 @@ impl<K: Kernel3> Regular3<K> {
         self.glue_facets(facets, seams).is_empty().then_some(())
     }
 
-    /// Whether the complex is regular across the seams and hidden points are.
+    /// Whether the complex is regular across the seams, hidden points are, and space is covered once.
     fn fits(&self, seams: &[[u32; 2]]) -> bool {
         let regular = |from: u32, to: u32| {
             let cell = &self.cells[(from >> 2) as usize];
@@ -162,6 +162,40 @@ impl<K: Kernel3> Regular3<K> {
         };
         seams.par_iter().all(|&[one, other]| regular(one, other) && regular(other, one))
             && self.lodgers.of_cell.par_iter().all(hidden)
+            && self.covers_once()
+    }
+
+    /// Whether some point lies strictly inside of the planes of all facets of the hull, and in one cell, not on its border.
+    ///
+    /// Lemma: then no point lies inside of two cells. Proof: cells are positive and the complex is closed, so the facets of the hull cover each direction, as seen
+    /// from that point, equally often: as often as cells cover the point, once. So they bound a star-shaped region, which the cells cover once.
+    pub(super) fn covers_once(&self) -> bool {
+        let Some(first) = self.cells.iter().find(|c| !c.is_ghost()) else {
+            return false;
+        };
+        let inner = self.corners(first).iter().map(|p| p.at).sum::<Point3>() / 4.0;
+        let side = |facet: [u32; 3]| {
+            let [a, b, c] = facet.map(|v| self.site(v).at);
+            K::orient3d(a, b, c, inner)
+        };
+        // Of each cell, how often it covers the point; `None` if the point is on its border or beyond the hull.
+        let covers = |cell: &Cell| {
+            if cell.is_ghost() {
+                let [a, b, c, _] = cell.v;
+                return (side([a, b, c]) == Sign::Negative).then_some(0);
+            }
+            let [p, q, r, s] = self.corners(cell).map(|p| p.at);
+            let near = p.min(q).min(r.min(s)).cmple(inner).all() && p.max(q).max(r.max(s)).cmpge(inner).all();
+            let sides = || FACET.map(|facet| side(facet.map(|k| cell.v[k])));
+            match near.then(sides) {
+                Some(sides) if sides.contains(&Sign::Negative) => Some(0),
+                Some(sides) if sides.contains(&Sign::Zero) => None,
+                Some(_) => Some(1),
+                None => Some(0),
+            }
+        };
+        let sum = self.cells.par_iter().map(covers).try_reduce(|| 0u32, |a, b| Some(a + b));
+        sum == Some(1)
     }
 }
 

@@ -17,8 +17,8 @@
 //! ```
 //!
 //! Whether an orthoball keeps inside is estimated in plain floating point; a misjudgement cannot pass. Where cells of different origin meet, the
-//! threads must agree on it, facets that none of them knows are tested, and the hidden points: a closed complex that is regular across every
-//! facet, with no hidden point in conflict, is the triangulation. Should a test fail, one thread does it all. So it does where most points would
+//! threads must agree on it, facets that none of them knows are tested, and the hidden points: a closed complex that covers space once and is regular
+//! across every facet, with no hidden point in conflict, is the triangulation. Should a test fail, one thread does it all. So it does where most points would
 //! be torn (all of them are on the hull, say), which is tried on a sample first.
 
 mod assemble;
@@ -87,6 +87,7 @@ fn pieces<K: Kernel3>(points: &[WeightedPoint], parts: usize) -> Vec<Piece> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::store::Cell;
     use super::super::tests::{Draw, family};
     use super::*;
     use crate::arith::FastKernel;
@@ -99,8 +100,16 @@ mod tests {
             .into_iter()
             .map(|at| WeightedPoint { at, weight: 1e-4 * draw.unit() })
             .collect();
-        let together = Regular3::<FastKernel>::build_together(&points, 2).expect("uniform points are shared");
+        let mut together = Regular3::<FastKernel>::build_together(&points, 2).expect("uniform points are shared");
         assert!(together.validate().is_ok());
+        assert_eq!(together.simplices(), Regular3::<FastKernel>::build_alone(&points).simplices());
+        // A second sheet is closed and regular, too.
+        let sheet = 4 * together.cells.len() as u32;
+        let second: Vec<Cell> =
+            together.cells.iter().map(|c| Cell { v: c.v, n: c.n.map(|link| link + sheet) }).collect();
+        assert!(together.covers_once());
+        together.cells.extend(second);
+        assert!(!together.covers_once());
         let on_a_sphere: Vec<WeightedPoint> =
             points.iter().map(|p| WeightedPoint::unweighted((p.at - Point3::splat(0.5)).normalize())).collect();
         assert!(Regular3::<FastKernel>::build_together(&on_a_sphere, 2).is_none());
