@@ -14,7 +14,7 @@
 //! ```
 //!
 //! The table is square over numbers that the boundary's vertices get on the spot (15 on average). A boundary with more vertices than it
-//! has rows is glued by sorting its edges.
+//! has rows is glued by a hash table of its edges.
 
 use super::numbers::Numbers;
 use super::store::{Cell, INF, NONE, Regular3};
@@ -22,6 +22,9 @@ use crate::arith::space::Kernel3;
 
 /// How many vertices the table has rows for.
 const ROWS: usize = 64;
+
+/// An empty slot of the hash table: no edge leads from a vertex to itself.
+const NO_EDGE: u64 = u64::MAX;
 
 /// A facet of the boundary of a conflict zone.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +53,8 @@ pub(super) struct Scratch {
     table: Box<[u32; ROWS * ROWS]>,
     /// The numbers of the vertices of each facet.
     corners: Vec<[u8; 3]>,
+    /// A hash table of edges, smaller vertex in the upper half, with links.
+    edges: Vec<(u64, u32)>,
 }
 
 impl Default for Scratch {
@@ -63,6 +68,7 @@ impl Default for Scratch {
             numbers: Numbers::default(),
             table: Box::new([0; ROWS * ROWS]),
             corners: Vec::new(),
+            edges: Vec::new(),
         }
     }
 }
@@ -99,7 +105,7 @@ impl<K: Kernel3> Regular3<K> {
         let glued = if s.has_ghosts { self.glue::<true>(p, s) } else { self.glue::<false>(p, s) };
         s.numbers.clear();
         if glued.is_none() {
-            self.glue_by_sorting(p, s);
+            self.glue_by_hashing(p, s);
         }
         if !s.has_ghosts {
             return s.zone[0];
@@ -140,26 +146,33 @@ impl<K: Kernel3> Regular3<K> {
 
     /// The same for any number of vertices.
     #[cold]
-    fn glue_by_sorting(&mut self, p: u32, s: &mut Scratch) {
-        // Undirected edges with the links of their two cells.
-        let mut edges = Vec::with_capacity(3 * s.rim.len());
+    fn glue_by_hashing(&mut self, p: u32, s: &mut Scratch) {
+        // Edges with the link of the facet met first. Half of the slots are taken at most: each edge is met twice.
+        let size = (3 * s.rim.len()).next_power_of_two();
+        s.edges.clear();
+        s.edges.resize(size, (NO_EDGE, NONE));
         for (facet, &t) in s.rim.iter().zip(&s.zone) {
             let turn = turn_of(facet.v);
             let [a, b, c] = facet.v;
-            for (k, (x, y)) in (0u32..).zip([(b, c), (c, a), (a, b)]) {
-                edges.push((x.min(y), x.max(y), 4 * t + (k ^ turn)));
-            }
             let cell = Cell { v: [a, b, c, p], n: [NONE, NONE, NONE, facet.outer] };
             self.cells[t as usize] = turned(cell, turn);
             self.marks[t as usize] = 0;
             let outer = (facet.outer >> 2) as usize;
             self.cells[outer].n[(facet.outer & 3) as usize] = 4 * t + (3 ^ turn);
             self.marks[outer] = 0;
-        }
-        edges.sort_unstable();
-        for pair in edges.chunks_exact(2) {
-            let (one, other) = (pair[0].2, pair[1].2);
-            self.link(one, other);
+            for (k, (x, y)) in (0u32..).zip([(b, c), (c, a), (a, b)]) {
+                let edge = u64::from(x.min(y)) << 32 | u64::from(x.max(y));
+                let link = 4 * t + (k ^ turn);
+                // Fibonacci hashing: the high bits of the product (Knuth, volume 3, 6.4).
+                let mut slot = (edge.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize & (size - 1);
+                while s.edges[slot].0 != edge && s.edges[slot].0 != NO_EDGE {
+                    slot = (slot + 1) & (size - 1);
+                }
+                match s.edges[slot] {
+                    (NO_EDGE, _) => s.edges[slot] = (edge, link),
+                    (_, other) => self.link(link, other),
+                }
+            }
         }
     }
 
