@@ -28,15 +28,15 @@ impl<K: Kernel3> Regular3<K> {
     }
 
     pub(super) fn build_alone(points: &[WeightedPoint]) -> Self {
-        let mut t = Self::build_unsettled(points);
+        let mut t = Self::build_unsettled(points, points.len());
         t.settle();
         t
     }
 
-    /// All cells; but hints are not set, and of the hidden points nothing is known.
-    pub(super) fn build_unsettled(points: &[WeightedPoint]) -> Self {
+    /// All cells; but hints are not set, and of the hidden points nothing is known. There is room for so many points.
+    pub(super) fn build_unsettled(points: &[WeightedPoint], room: usize) -> Self {
         let order = Self::insertion_order(points);
-        let mut t = Self::with_capacity(points.len());
+        let mut t = Self::with_capacity(room);
         t.places.resize(points.len(), NONE);
         for (place, &id) in (FIRST..).zip(&order) {
             t.add_site(points[id as usize], id);

@@ -1,12 +1,13 @@
 //! The pieces are put together.
 //!
-//! Inner cells are copied, piece after piece, all threads at each. Mixed cells come once, in the order of their ids; of its neighbors each thread
-//! knows some. What links are still open are on the boundary of holes, which the triangulation of the torn points fills.
+//! Inner cells are copied, piece after piece, all threads at each; those of the first piece stay where they are. Slots between them are free. Mixed cells come
+//! once, in the order of their ids; of their neighbors each thread knows some. What links are still open are on the boundary of holes, which the
+//! triangulation of the torn points fills.
 
 use super::super::fill::{Key, cells_within, key};
 use super::super::star::Rim;
 use super::super::store::{Cell, FACET, FIRST, NONE, Regular3, Site, Status};
-use super::piece::Piece;
+use super::piece::{INNER, Piece};
 use crate::arith::space::Kernel3;
 use crate::model::{Point3, Sign, WeightedPoint};
 use rayon::prelude::*;
@@ -16,34 +17,37 @@ const STRETCH: usize = 1 << 10;
 
 impl<K: Kernel3> Regular3<K> {
     /// Puts the pieces together and fills what they leave open; `None` if they do not fit.
-    pub(super) fn assemble(points: &[WeightedPoint], mut pieces: Vec<Piece>) -> Option<Self> {
+    pub(super) fn assemble(points: &[WeightedPoint], pieces: Vec<Piece>) -> Option<Self> {
         let mut torn: Vec<u32> = pieces.iter().flat_map(|p| &p.torn).copied().collect();
         torn.sort_unstable();
         torn.dedup();
         let filling = || Self::build_alone(&torn.iter().map(|&id| points[id as usize]).collect::<Vec<_>>());
         let (filling, (mut t, mixed)) =
             rayon::join(filling, || rayon::join(|| Self::of_pieces(points, &pieces), || mixed_of_all(&pieces)));
-        let links = number_mixed(&mut pieces, &mixed);
-        let mut open: Vec<u32> = Vec::new();
-        let (mut first_place, mut first_cell) = (FIRST, 0);
-        for piece in pieces {
-            open.extend(piece.open.iter().map(|&link| piece.moved(link, first_cell)));
-            t.cells.par_extend(piece.inner.par_iter().map(|&c| {
-                let Cell { v, n } = piece.cells[c as usize];
-                Cell {
-                    v: v.map(|v| piece.rank[v as usize] + first_place),
-                    n: n.map(|link| piece.moved(link, first_cell)),
-                }
-            }));
+        let first_mixed: u32 = pieces.iter().map(|p| p.cells.len() as u32).sum();
+        let links = links_of_mixed(&pieces, &mixed, first_mixed);
+        let mut open = Vec::new();
+        let mut first_place = FIRST;
+        for mut piece in pieces {
+            let first_cell = t.cells.len() as u32;
+            open.extend(piece.open.iter().map(|&link| link + 4 * first_cell));
+            t.free.extend(piece.free.iter().map(|&c| c + first_cell));
+            let mut cells = std::mem::take(&mut piece.cells);
+            if first_cell == 0 {
+                cells.par_iter_mut().zip(&piece.kinds).for_each(|(c, &kind)| *c = piece.moved(c, kind, first_place, 0));
+                t.cells = cells;
+            } else {
+                let moved = |(c, &kind): (&Cell, &u8)| piece.moved(c, kind, first_place, first_cell);
+                t.cells.par_extend(cells.par_iter().zip(&piece.kinds).map(moved));
+                // To give the memory back takes as long as some thousand points.
+                rayon::spawn(move || drop(cells));
+            }
             first_place += piece.order.len() as u32;
-            first_cell += piece.inner.len() as u32;
-            // To give the memory back takes as long as some thousand points.
-            rayon::spawn(move || drop(piece));
         }
         let places = &t.places;
         t.cells.par_extend(mixed.par_iter().map(|ids| Cell { v: ids.map(|id| places[id as usize]), n: [NONE; 4] }));
         t.link_mixed(links.iter().flatten())?;
-        for c in first_cell..t.cells.len() as u32 {
+        for c in first_mixed..t.cells.len() as u32 {
             open.extend((4 * c..4 * c + 4).filter(|&link| t.cells[c as usize].n[(link & 3) as usize] == NONE));
         }
         let mut seams = Vec::new();
@@ -53,11 +57,11 @@ impl<K: Kernel3> Regular3<K> {
         t.close(&rim, &filling, &torn, &mut seams)?;
         t.marks = vec![0; t.cells.len()];
         t.last = seams.first()?[0] >> 2;
-        t.set_hints_from(first_cell);
+        t.set_hints_from(first_mixed);
         let hidden = t.homeless();
         let cells: Vec<u32> = hidden.par_chunks(STRETCH).flat_map_iter(|stretch| t.cells_of(stretch)).collect();
         t.lodge_together(&hidden, &cells);
-        t.fits(&seams).then_some(t)
+        (t.fits(&seams) && t.covers_once(first_mixed as usize)).then_some(t)
     }
 
     /// A triangulation without cells as yet: points have their places, and those of inner cells their hints.
@@ -77,9 +81,9 @@ impl<K: Kernel3> Regular3<K> {
         let fill_hints = || {
             let mut first_cell = 0;
             for piece in pieces {
-                let hint = |&number: &u32| if number == NONE { NONE } else { number + first_cell };
+                let hint = |&cell: &u32| if cell == NONE { NONE } else { cell + first_cell };
                 hints.extend(piece.hints.iter().map(hint));
-                first_cell += piece.inner.len() as u32;
+                first_cell += piece.cells.len() as u32;
             }
         };
         rayon::join(fill_sites, || rayon::join(fill_names, fill_hints));
@@ -97,15 +101,15 @@ impl<K: Kernel3> Regular3<K> {
         t
     }
 
-    /// Gives mixed cells the links that the threads know; `None` if two threads contradict each other.
-    fn link_mixed<'a>(&mut self, known: impl Iterator<Item = &'a (u32, [u32; 4])>) -> Option<()> {
-        for &(c, links) in known {
-            for (link, known) in self.cells[c as usize].n.iter_mut().zip(links) {
-                if *link == NONE {
-                    *link = known;
-                } else if known != NONE && known != *link {
+    /// Links mixed cells with the neighbors that the threads know; `None` if two threads contradict each other.
+    fn link_mixed<'a>(&mut self, known: impl Iterator<Item = &'a [u32; 2]>) -> Option<()> {
+        for &[one, other] in known {
+            for (from, to) in [(one, other), (other, one)] {
+                let link = &mut self.cells[(from >> 2) as usize].n[(from & 3) as usize];
+                if *link != NONE && *link != to {
                     return None;
                 }
+                *link = to;
             }
         }
         Some(())
@@ -149,7 +153,7 @@ impl<K: Kernel3> Regular3<K> {
         self.glue_facets(facets, seams).is_empty().then_some(())
     }
 
-    /// Whether the complex is regular across the seams, hidden points are, and space is covered once.
+    /// Whether the complex is regular across the seams and hidden points are.
     fn fits(&self, seams: &[[u32; 2]]) -> bool {
         let regular = |from: u32, to: u32| {
             let cell = &self.cells[(from >> 2) as usize];
@@ -162,21 +166,25 @@ impl<K: Kernel3> Regular3<K> {
         };
         seams.par_iter().all(|&[one, other]| regular(one, other) && regular(other, one))
             && self.lodgers.of_cell.par_iter().all(hidden)
-            && self.covers_once()
     }
 
-    /// Whether some point lies strictly inside of the planes of all facets of the hull, and in one cell, not on its border.
+    /// Whether some point lies strictly inside of the planes of all facets of the hull, and in one cell, not on its border. The cells before slot
+    /// `mixed` are inner ones.
     ///
     /// Lemma: then no point lies inside of two cells. Proof: cells are positive and the complex is closed, so the facets of the hull cover each direction, as seen
     /// from that point, equally often: as often as cells cover the point, once. So they bound a star-shaped region, which the cells cover once.
-    pub(super) fn covers_once(&self) -> bool {
-        let Some(first) = self.cells.iter().find(|c| !c.is_ghost()) else {
+    ///
+    /// The point is taken inside of the first inner cell. No other inner cell has it: those of the same box are of the same triangulation, those of other
+    /// boxes, which are convex, lie there.
+    pub(super) fn covers_once(&self, mixed: usize) -> bool {
+        let (inner, others) = self.cells.split_at(mixed);
+        let Some(first) = inner.iter().find(|c| !c.is_free()) else {
             return false;
         };
-        let inner = self.corners(first).iter().map(|p| p.at).sum::<Point3>() / 4.0;
+        let point = self.corners(first).iter().map(|p| p.at).sum::<Point3>() / 4.0;
         let side = |facet: [u32; 3]| {
             let [a, b, c] = facet.map(|v| self.site(v).at);
-            K::orient3d(a, b, c, inner)
+            K::orient3d(a, b, c, point)
         };
         // Of each cell, how often it covers the point; `None` if the point is on its border or beyond the hull.
         let covers = |cell: &Cell| {
@@ -185,7 +193,7 @@ impl<K: Kernel3> Regular3<K> {
                 return (side([a, b, c]) == Sign::Negative).then_some(0);
             }
             let [p, q, r, s] = self.corners(cell).map(|p| p.at);
-            let near = p.min(q).min(r.min(s)).cmple(inner).all() && p.max(q).max(r.max(s)).cmpge(inner).all();
+            let near = p.min(q).min(r.min(s)).cmple(point).all() && p.max(q).max(r.max(s)).cmpge(point).all();
             let sides = || FACET.map(|facet| side(facet.map(|k| cell.v[k])));
             match near.then(sides) {
                 Some(sides) if sides.contains(&Sign::Negative) => Some(0),
@@ -194,18 +202,20 @@ impl<K: Kernel3> Regular3<K> {
                 None => Some(0),
             }
         };
-        let sum = self.cells.par_iter().map(covers).try_reduce(|| 0u32, |a, b| Some(a + b));
-        sum == Some(1)
+        let sum = others.par_iter().filter(|c| !c.is_free()).map(covers).try_reduce(|| 0u32, |a, b| Some(a + b));
+        covers(first) == Some(1) && sum == Some(0)
     }
 }
 
 impl Piece {
-    /// A link between cells of the piece as one of the whole, where the piece's inner cells start at `first`; `NONE` to a cell without a number.
-    fn moved(&self, link: u32, first: u32) -> u32 {
-        match self.number[(link >> 2) as usize] {
-            NONE => NONE,
-            number => 4 * (number + first) + (link & 3),
+    /// A cell as one of the whole, if it is an inner one, where the piece's points and slots start at those; else a free slot.
+    #[inline(always)]
+    fn moved(&self, cell: &Cell, kind: u8, first_place: u32, first_cell: u32) -> Cell {
+        if kind != INNER {
+            return Cell::FREE;
         }
+        let link = |link: u32| if self.kinds[(link >> 2) as usize] == INNER { link + 4 * first_cell } else { NONE };
+        Cell { v: cell.v.map(|v| self.rank[v as usize] + first_place), n: cell.n.map(link) }
     }
 }
 
@@ -217,22 +227,31 @@ fn mixed_of_all(pieces: &[Piece]) -> Vec<[u32; 4]> {
     all
 }
 
-/// Gives the mixed cells numbers that follow those of all inner cells. Lists for each piece the numbers with the links that it knows.
-fn number_mixed(pieces: &mut [Piece], all: &[[u32; 4]]) -> Vec<Vec<(u32, [u32; 4])>> {
-    let starts = pieces.iter().scan(0, |sum, p| Some(std::mem::replace(sum, *sum + p.inner.len() as u32)));
+/// For each piece what it knows of the neighbors of mixed cells, as pairs of links. Mixed cells have the slots from `first_mixed` on.
+fn links_of_mixed(pieces: &[Piece], all: &[[u32; 4]], first_mixed: u32) -> Vec<Vec<[u32; 2]>> {
+    let starts = pieces.iter().scan(0, |sum, p| Some(std::mem::replace(sum, *sum + p.cells.len() as u32)));
     let starts: Vec<u32> = starts.collect();
-    let end: u32 = pieces.iter().map(|p| p.inner.len() as u32).sum();
-    let number = |(piece, start): (&mut Piece, u32)| {
-        // Both lists ascend. A piece counts from its first cell.
-        let mut of_all = (end - start..).zip(all);
+    let of_piece = |(piece, start): (&Piece, u32)| {
+        // Per slot that of the whole, if it has a mixed cell. Both lists of those ascend.
+        let mut slots = vec![0; piece.cells.len()];
+        let mut of_all = (first_mixed..).zip(all);
         for m in &piece.mixed {
-            if let Some((number, _)) = of_all.find(|(_, ids)| **ids == m.ids) {
-                piece.number[m.cell as usize] = number;
+            if let Some((slot, _)) = of_all.find(|(_, ids)| **ids == m.ids) {
+                slots[m.cell as usize] = slot;
             }
         }
-        let link = |link| piece.moved(link, start);
-        let links = |c: u32| (piece.number[c as usize] + start, piece.cells[c as usize].n.map(link));
-        piece.mixed.iter().map(|m| links(m.cell)).collect()
+        let mut known = Vec::with_capacity(4 * piece.mixed.len());
+        for m in &piece.mixed {
+            for (link, beyond) in (4 * slots[m.cell as usize]..).zip(piece.cells[m.cell as usize].n) {
+                let (cell, corner) = (beyond >> 2, beyond & 3);
+                if piece.kinds[cell as usize] == INNER {
+                    known.push([link, 4 * (cell + start) + corner]);
+                } else if slots[cell as usize] != 0 {
+                    known.push([link, 4 * slots[cell as usize] + corner]);
+                }
+            }
+        }
+        known
     };
-    pieces.par_iter_mut().zip(starts).map(number).collect()
+    pieces.par_iter().zip(starts).map(of_piece).collect()
 }

@@ -21,17 +21,17 @@ pub(super) struct Piece {
     pub(super) torn: Vec<u32>,
     /// The cells of the triangulation of box and halo.
     pub(super) cells: Vec<Cell>,
-    /// Sure cells that have all corners in the box.
-    pub(super) inner: Vec<u32>,
-    /// Other sure cells with a corner in the box.
+    /// Per cell what it is: `INNER` and others.
+    pub(super) kinds: Vec<u8>,
+    /// The slots that hold no inner cell.
+    pub(super) free: Vec<u32>,
+    /// Sure cells with corners inside and outside of the box.
     pub(super) mixed: Vec<Mixed>,
     /// Links to inner cells from cells that are not sure.
     pub(super) open: Vec<u32>,
     /// Per place of the triangulation the position in `order`, or `NONE`.
     pub(super) rank: Vec<u32>,
-    /// Per cell its number: inner ones count from 0, the others have none as yet.
-    pub(super) number: Vec<u32>,
-    /// Per point of `order` the number of an inner cell that has it, or `NONE`.
+    /// Per point of `order` an inner cell that has it, or `NONE`.
     pub(super) hints: Vec<u32>,
     /// What is known of all points: see `Regular3`.
     pub(super) unit: f64,
@@ -50,9 +50,11 @@ pub(super) struct Mixed {
 const TORN: u8 = 1;
 /// A cell that was looked at and is sure. So are those that were not looked at.
 const SURE: u8 = 2;
+/// A sure cell that has all corners in the box.
+pub(super) const INNER: u8 = 3;
 
-/// Triangulates a part with its halo, and sorts the cells.
-pub(super) fn piece<K: Kernel3>(points: &[WeightedPoint], part: &Part, all: &Surroundings) -> Piece {
+/// Triangulates a part with its halo, and sorts the cells. There is room for the cells of `room` points.
+pub(super) fn piece<K: Kernel3>(points: &[WeightedPoint], part: &Part, all: &Surroundings, room: usize) -> Piece {
     let (mut ids, mut halo) = (Vec::new(), Vec::new());
     for (id, p) in (0u32..).zip(points).filter(|(_, p)| part.reaches(p.at)) {
         if part.has(p.at) { ids.push(id) } else { halo.push(id) }
@@ -60,14 +62,14 @@ pub(super) fn piece<K: Kernel3>(points: &[WeightedPoint], part: &Part, all: &Sur
     let own = ids.len() as u32;
     ids.append(&mut halo);
     let local: Vec<WeightedPoint> = ids.iter().map(|&id| points[id as usize]).collect();
-    let mut t = Regular3::<K>::build_unsettled(&local);
+    let mut t = Regular3::<K>::build_unsettled(&local, local.len().max(room));
     drop(local);
     t.mark_torn(part, all);
     sort_cells(t, &ids, own)
 }
 
 /// Sorts the cells of a part's triangulation; its points have the given ids, the first `own` of them lie in its box.
-fn sort_cells<K: Kernel3>(t: Regular3<K>, ids: &[u32], own: u32) -> Piece {
+fn sort_cells<K: Kernel3>(mut t: Regular3<K>, ids: &[u32], own: u32) -> Piece {
     let mut piece = Piece { unit: t.unit, exact_below: t.exact_below, has_weights: t.has_weights, ..Piece::default() };
     piece.rank = vec![NONE; t.sites.len()];
     for place in FIRST as usize..t.sites.len() {
@@ -80,7 +82,6 @@ fn sort_cells<K: Kernel3>(t: Regular3<K>, ids: &[u32], own: u32) -> Piece {
         }
     }
     piece.hints = vec![NONE; piece.order.len()];
-    piece.number = vec![NONE; t.cells.len()];
     if t.dimension != Some(3) {
         piece.torn.clone_from(&piece.order);
         piece.torn.sort_unstable();
@@ -88,31 +89,33 @@ fn sort_cells<K: Kernel3>(t: Regular3<K>, ids: &[u32], own: u32) -> Piece {
     }
     let id = |v: u32| ids[t.ids[v as usize] as usize];
     let mut torn = Vec::new();
-    for (c, cell) in (0u32..).zip(&t.cells).filter(|(_, c)| !c.is_free()) {
-        let ranks = cell.v.map(|v| piece.rank[v as usize]);
-        let inside = ranks.iter().filter(|&&rank| rank != NONE).count();
-        if inside == 0 {
+    for (c, (cell, kind)) in (0u32..).zip(t.cells.iter().zip(&mut t.marks)) {
+        if cell.is_free() {
+            piece.free.push(c);
             continue;
         }
-        if t.marks[c as usize] == TORN {
+        let ranks = cell.v.map(|v| piece.rank[v as usize]);
+        let inside = ranks.iter().filter(|&&rank| rank != NONE).count();
+        if inside == 4 && *kind != TORN {
+            *kind = INNER;
+            ranks.iter().for_each(|&rank| piece.hints[rank as usize] = c);
+            continue;
+        }
+        piece.free.push(c);
+        if inside > 0 && *kind == TORN {
             torn.push(c);
-        } else if inside == 4 {
-            let number = piece.inner.len() as u32;
-            piece.inner.push(c);
-            piece.number[c as usize] = number;
-            ranks.iter().for_each(|&rank| piece.hints[rank as usize] = number);
-        } else {
+        } else if inside > 0 {
             let ids = canonical_tetrahedron(cell.v.map(|v| VertexId(id(v)))).map(|v| v.0);
             piece.mixed.push(Mixed { ids, cell: c });
         }
     }
     for cell in torn.iter().map(|&c| &t.cells[c as usize]) {
         piece.torn.extend(cell.v.iter().filter(|&&v| v >= FIRST).map(|&v| id(v)));
-        piece.open.extend(cell.n.iter().filter(|&&link| piece.number[(link >> 2) as usize] != NONE));
+        piece.open.extend(cell.n.iter().filter(|&&link| t.marks[(link >> 2) as usize] == INNER));
     }
     piece.torn.sort_unstable();
     piece.torn.dedup();
-    piece.cells = t.cells;
+    (piece.cells, piece.kinds) = (t.cells, t.marks);
     for &Mixed { ids: order, cell } in &piece.mixed {
         let v = piece.cells[cell as usize].v.map(id);
         reorder(&mut piece.cells, cell, order.map(|x| v.iter().position(|&y| y == x).unwrap_or(0)));
