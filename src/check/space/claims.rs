@@ -25,7 +25,7 @@ pub fn check_points(replay: &Replay) -> Checked {
 
 /// Counts.
 pub fn counts(replay: &Replay) -> Counts3 {
-    let mut counts = Counts3 { simplices: replay.mesh.tetrahedra().count() as u32, ..Counts3::default() };
+    let mut counts = Counts3 { simplices: replay.mesh.corner_lists().count() as u32, ..Counts3::default() };
     for (_, state) in replay.points.iter() {
         match state {
             State::Vertex => counts.vertices += 1,
@@ -77,9 +77,11 @@ pub fn triangulation(
 
 /// The simplices of a triangulation of fewer dimensions, `size` vertices each, canonical and ascending: ids ascend, and apexes have the largest.
 fn flat(replay: &Replay, name: &[u32], size: usize) -> Vec<VertexId> {
-    let all = replay.mesh.tetrahedra().map(|c| replay.mesh.cell(c).v);
-    let mut tuples: Vec<[u32; 4]> =
-        all.map(|v| v.map(|v| if v < FIRST { u32::MAX - (INFINITE - v) } else { name[v as usize] })).collect();
+    let mut tuples: Vec<[u32; 4]> = replay
+        .mesh
+        .corner_lists()
+        .map(|v| v.map(|v| if v < FIRST { u32::MAX - (INFINITE - v) } else { name[v as usize] }))
+        .collect();
     tuples.iter_mut().for_each(|t| t.sort_unstable());
     tuples.sort_unstable();
     tuples.iter().flat_map(|t| t[..size].iter().map(|&v| VertexId(v))).collect()
@@ -87,11 +89,10 @@ fn flat(replay: &Replay, name: &[u32], size: usize) -> Vec<VertexId> {
 
 /// The tetrahedra, canonical and ascending: by buckets over the first id.
 fn tetrahedra(replay: &Replay, name: &[u32]) -> Vec<[VertexId; 4]> {
-    let named = |c: u32| replay.mesh.cell(c).v.map(|v| VertexId(name[v as usize]));
+    let all = || replay.mesh.corner_lists().map(|t| t.map(|v| VertexId(name[v as usize])));
     // Where the bucket of each id starts; when it is full, where it ends.
     let mut bounds = vec![0u32; replay.points.len() + 1];
-    for c in replay.mesh.tetrahedra() {
-        let [a, b, c, d] = named(c);
+    for [a, b, c, d] in all() {
         bounds[a.min(b).min(c.min(d)).index() + 1] += 1;
     }
     for v in 1..bounds.len() {
@@ -99,8 +100,7 @@ fn tetrahedra(replay: &Replay, name: &[u32]) -> Vec<[VertexId; 4]> {
     }
     let count = bounds.last().copied().unwrap_or(0);
     let mut sorted = vec![[VertexId(0); 4]; count as usize];
-    for c in replay.mesh.tetrahedra() {
-        let t = canonical_tetrahedron(named(c));
+    for t in all().map(canonical_tetrahedron) {
         let end = &mut bounds[t[0].index()];
         sorted[*end as usize] = t;
         *end += 1;

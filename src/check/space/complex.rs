@@ -177,6 +177,11 @@ impl Complex {
         self.cells().filter(|&c| self.cells[c as usize].is_finite())
     }
 
+    /// The corners of all tetrahedra.
+    pub fn corner_lists(&self) -> impl Iterator<Item = [u32; 4]> + '_ {
+        self.cells.iter().map(|cell| cell.v).filter(|v| v[0] < MARK && !v.contains(&INFINITE))
+    }
+
     /// Adds a cell without neighbors.
     #[inline]
     pub fn add(&mut self, v: [u32; 4]) -> u32 {
@@ -222,13 +227,13 @@ impl Complex {
         cell
     }
 
-    /// Looks at the cell of a facet: whether it is there, and the corner opposite. Marks it as destroyed, or does not; its slot is not used again before `release`.
+    /// Whether a cell is in this slot. Marks it as destroyed, or does not; its slot is not used again before `release`.
     #[inline]
-    pub fn meet(&mut self, f: u32, destroyed: bool) -> (bool, u32) {
-        let v = &mut self.cells[(f >> 2) as usize].v;
-        let (lives, apex) = (v[0] < MARK, v[(f & 3) as usize]);
-        v[0] |= u32::from(destroyed) << 31;
-        (lives, apex)
+    pub fn meet(&mut self, c: u32, destroyed: bool) -> bool {
+        let first = &mut self.cells[c as usize].v[0];
+        let lives = *first < MARK;
+        *first |= u32::from(destroyed) << 31;
+        lives
     }
 
     /// What a cell marked as destroyed was.
@@ -311,7 +316,8 @@ impl Complex {
         if corners.iter().any(|&v| v >= self.vertex_count()) {
             return None;
         }
-        for from in corners {
+        // The youngest first: what is around it was in hand last.
+        for from in corners.into_iter().rev() {
             let c = self.near[from as usize].cell;
             if c == NONE {
                 return None;

@@ -8,7 +8,7 @@
 
 use super::complex::{Cell, Complex, NONE};
 use super::glue::FACETS;
-use crate::check::verdict::{Checked, Rule, broken, ensure};
+use crate::check::verdict::{Checked, Rule, ensure};
 use crate::model::Tetrahedron;
 use crate::trace::Bits;
 
@@ -70,27 +70,25 @@ impl Flooded {
     }
 }
 
-/// A facet by which the flood enters a cell.
+/// A facet that the flood has met.
 #[derive(Clone, Copy, Debug, Default)]
-struct Door {
-    /// The facet, as a facet of the cell entered.
-    through: u32,
-    /// The cell before.
-    from: u32,
-    /// Which member of its tuple is opposite.
-    position: u32,
+struct Met {
+    /// 4 times the number of the cell in the flood, plus which member of its tuple is opposite.
+    of: u32,
+    /// The facet beyond.
+    outer: u32,
 }
 
 /// A facet of the rim.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Side {
     /// Its corners, as positions among the vertices, turned such that with a point of the cavity they are positive.
     pub corners: [u32; 3],
     /// The corner opposite of the cell destroyed.
     pub inner: u32,
-    /// The facet beyond, and the corner opposite that.
+    /// The facet beyond.
     pub outer: u32,
-    /// See `outer`.
+    /// The corner opposite that.
     pub apex: u32,
 }
 
@@ -100,73 +98,87 @@ pub struct Flood {
     /// The cells destroyed, in order.
     pub cells: Vec<Flooded>,
     /// The rim.
-    pub sides: Sieve<Side>,
+    pub sides: Vec<Side>,
     /// All vertices of the cells.
     pub vertices: Sieve<u32>,
-    doors: Sieve<Door>,
+    /// Where the flood goes on, one facet for each cell but the first; and where it stops.
+    doors: Sieve<Met>,
+    walls: Sieve<Met>,
 }
 
 impl Flood {
     /// Takes the cells that a flood code names out of the complex. `first` is that of the tuple.
     pub fn run(&mut self, mesh: &mut Complex, first: u32, tuple: [u32; 4], bits: &Bits) -> Checked {
         self.cells.clear();
-        self.sides.clear();
         self.vertices.clear();
         self.doors.clear();
+        self.walls.clear();
         let cell = mesh.destroy(first);
         let local = tuple.map(|v| self.number(mesh, v));
         let beyond = tuple.map(|v| cell.beyond[place(&cell, v)]);
-        let mut here = Flooded { slot: first, positive: true, v: tuple, beyond, local };
-        let mut read = 0;
-        loop {
-            read = self.look_around(mesh, &here, bits, read);
-            self.cells.push(here);
-            let Some(&door) = self.doors.taken().get(self.cells.len() - 1) else { break };
-            here = self.enter(mesh, door);
+        self.cells.push(Flooded { slot: first, positive: true, v: tuple, beyond, local });
+        // By rings: where the cells of one are known, nothing waits for one to fetch what is around the next.
+        let (mut read, mut ring) = (0, 0..1);
+        while !ring.is_empty() {
+            self.doors.expect(4 * ring.len());
+            self.walls.expect(4 * ring.len());
+            for here in ring.clone() {
+                read = self.look_around(mesh, here, bits, read);
+            }
+            for door in ring.end - 1..self.doors.taken().len() {
+                let cell = self.enter(mesh, self.doors.taken()[door]);
+                self.cells.push(cell);
+            }
+            ring = ring.end..self.cells.len();
         }
         ensure(read == bits.len(), Rule::Flood, || {
             ("a bit for each facet of the flood", format!("{} bits for {read} facets", bits.len()))
         })?;
-        // A cell that one facet was to stop at may have been entered through another.
-        let stops = self.sides.taken().iter().all(|side| mesh.lives(side.outer >> 2));
-        ensure(stops, Rule::Flood, || ("a flood that stops where it says", "a cell beyond its rim destroyed"))?;
-        if self.sides.taken().is_empty() {
-            return broken(Rule::Flood, "a cavity with a rim", "none");
-        }
-        Ok(())
+        self.collect_sides(mesh)
     }
 
     /// Reads what becomes of the facets of a cell. Bits beyond the end are 0.
     #[inline]
-    fn look_around(&mut self, mesh: &mut Complex, here: &Flooded, bits: &Bits, mut read: u32) -> u32 {
-        self.doors.expect(4);
-        self.sides.expect(4);
-        let from = self.cells.len() as u32;
-        for (k, facet) in FACETS.iter().enumerate() {
-            let outer = here.beyond[k];
-            let bit = bits.get(read).unwrap_or(false);
+    fn look_around(&mut self, mesh: &mut Complex, here: usize, bits: &Bits, mut read: u32) -> u32 {
+        let mut next = bits.window(read);
+        for (k, outer) in (4 * here as u32..).zip(self.cells[here].beyond) {
+            let met = Met { of: k, outer };
+            let bit = next & 1 == 1;
             // A cell that is not there is destroyed already.
-            let (open, apex) = mesh.meet(outer, bit);
+            let open = mesh.meet(met.outer >> 2, bit);
+            self.doors.offer(met, open & bit);
+            self.walls.offer(met, open & !bit);
+            next >>= u32::from(open);
             read += u32::from(open);
-            self.doors.offer(Door { through: outer, from, position: k as u32 }, open & bit);
-            let [x, y, z] = facet.map(|i| here.local[i]);
-            let corners = if here.positive { [x, y, z] } else { [y, x, z] };
-            self.sides.offer(Side { corners, inner: here.local[k], outer, apex }, open & !bit);
         }
         read
     }
 
     #[inline]
-    fn enter(&mut self, mesh: &mut Complex, door: Door) -> Flooded {
-        let slot = door.through >> 2;
+    fn enter(&mut self, mesh: &mut Complex, door: Met) -> Flooded {
+        let slot = door.outer >> 2;
         let cell = mesh.marked(slot);
-        let own = cell.v[(door.through & 3) as usize];
+        let own = cell.v[(door.outer & 3) as usize];
         let number = self.number(mesh, own);
-        let from = &self.cells[door.from as usize];
-        let replaced =
-            |old: &[u32; 4], new| [0, 1, 2, 3].map(|k| if k == door.position { new } else { old[k as usize] });
+        let from = &self.cells[(door.of >> 2) as usize];
+        let replaced = |old: &[u32; 4], new| [0, 1, 2, 3].map(|k| if k == door.of & 3 { new } else { old[k as usize] });
         let (v, local) = (replaced(&from.v, own), replaced(&from.local, number));
         Flooded { slot, positive: !from.positive, v, beyond: v.map(|w| cell.beyond[place(&cell, w)]), local }
+    }
+
+    /// Turns walls to sides.
+    fn collect_sides(&mut self, mesh: &Complex) -> Checked {
+        self.sides.clear();
+        let mut stops = !self.walls.taken().is_empty();
+        for &Met { of, outer } in self.walls.taken() {
+            let Flooded { local, positive, .. } = &self.cells[(of >> 2) as usize];
+            let [x, y, z] = FACETS[(of & 3) as usize].map(|i| local[i]);
+            let corners = if *positive { [x, y, z] } else { [y, x, z] };
+            self.sides.push(Side { corners, inner: local[(of & 3) as usize], outer, apex: mesh.apex(outer) });
+            stops &= mesh.lives(outer >> 2);
+        }
+        // A cell that one facet was to stop at may have been entered through another.
+        ensure(stops, Rule::Flood, || ("a flood that stops where it says", "none, or a cell beyond its rim destroyed"))
     }
 
     /// The position of a vertex, which is added if it is not there.
@@ -197,5 +209,6 @@ impl Flood {
 /// Where a corner stands in a cell, found without a branch.
 #[inline]
 fn place(cell: &Cell, v: u32) -> usize {
-    usize::from(cell.v[1] == v) + 2 * usize::from(cell.v[2] == v) + 3 * usize::from(cell.v[3] == v)
+    // Not above 3, since corners differ.
+    (usize::from(cell.v[1] == v) + 2 * usize::from(cell.v[2] == v) + 3 * usize::from(cell.v[3] == v)) & 3
 }

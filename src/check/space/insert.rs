@@ -47,7 +47,7 @@ impl Cavity {
         self.make(mesh, p)?;
         self.check_rim()?;
         self.look(mesh, p);
-        for (k, (side, &c)) in (0..).zip(self.flood.sides.taken().iter().zip(&self.made)) {
+        for (k, (side, &c)) in (0..).zip(self.flood.sides.iter().zip(&self.made)) {
             let sphere = self.view.sphere(side.corners);
             let beyond = self.flood.vertices.taken().len() as u32 + k;
             if ties == Ties::Broken || !self.view.is_clear(&sphere, [side.inner, beyond]) {
@@ -82,7 +82,6 @@ impl Cavity {
     /// Writes the new cells, in slots of those destroyed first.
     fn make(&mut self, mesh: &mut Complex, p: u32) -> Checked {
         let Flood { cells, sides, vertices, .. } = &self.flood;
-        let sides = sides.taken();
         self.made.clear();
         self.made.extend(cells.iter().map(|f| f.slot).take(sides.len()));
         cells.iter().skip(sides.len()).for_each(|f| mesh.release(f.slot));
@@ -116,7 +115,7 @@ impl Cavity {
     /// Sees from p the vertices, and the corner beyond each facet of the rim.
     fn look(&mut self, mesh: &Complex, p: u32) {
         self.view.begin(mesh.point(p));
-        let beyond = self.flood.sides.taken().iter().map(|side| side.apex);
+        let beyond = self.flood.sides.iter().map(|side| side.apex);
         for v in self.flood.vertices.taken().iter().copied().chain(beyond) {
             if v == INFINITE { self.view.add_nowhere() } else { self.view.add(mesh.point(v)) }
         }

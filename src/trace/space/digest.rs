@@ -28,8 +28,12 @@ pub fn triangulation_digest(t: &Triangulation3) -> String {
     }
     put(&[t.dimension.unwrap_or(u8::MAX)]);
     put(&(t.simplices().len() as u64).to_le_bytes());
-    t.simplices.iter().for_each(|v| put(&v.0.to_le_bytes()));
     // An empty part hashes what is left.
     put(&[]);
+    for ids in t.simplices.chunks(1 << 14) {
+        bytes.resize(4 * ids.len(), 0);
+        bytes.as_chunks_mut().0.iter_mut().zip(ids).for_each(|(b, v)| *b = v.0.to_le_bytes());
+        hasher.update(&bytes);
+    }
     hasher.finalize().to_hex().to_string()
 }

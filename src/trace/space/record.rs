@@ -174,6 +174,13 @@ impl Bits {
         (k < self.length).then_some(byte >> (k % 8) & 1 == 1)
     }
 
+    /// At least nine bits from the k-th on, the first lowest; 0 beyond the end.
+    #[inline]
+    pub fn window(&self, k: u32) -> u32 {
+        let byte = |k: u32| self.bytes.get(k as usize).map_or(0, |b| u32::from(*b));
+        (byte(k / 8) | byte(k / 8 + 1) << 8) >> (k % 8)
+    }
+
     /// How many there are.
     pub fn len(&self) -> u32 {
         self.length
