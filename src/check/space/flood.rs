@@ -54,6 +54,8 @@ pub struct Flooded {
     pub slot: u32,
     /// Whether its tuple is positively oriented.
     positive: bool,
+    /// Which member is opposite the facet that it was entered by; 0 for the first cell.
+    entry: u8,
     /// Its tuple, in the order of the flood.
     v: [u32; 4],
     /// The facets beyond those opposite the members.
@@ -116,9 +118,11 @@ impl Flood {
         let cell = mesh.destroy(first);
         let local = tuple.map(|v| self.number(mesh, v));
         let beyond = tuple.map(|v| cell.beyond[place(&cell, v)]);
-        self.cells.push(Flooded { slot: first, positive: true, v: tuple, beyond, local });
+        self.cells.push(Flooded { slot: first, positive: true, entry: 0, v: tuple, beyond, local });
         // By rings: where the cells of one are known, nothing waits for one to fetch what is around the next.
-        let (mut read, mut ring) = (0, 0..1);
+        self.doors.expect(1);
+        self.walls.expect(1);
+        let (mut read, mut ring) = (self.look(mesh, 0, 0, bits.window(0)), 0..1);
         while !ring.is_empty() {
             self.doors.expect(4 * ring.len());
             self.walls.expect(4 * ring.len());
@@ -137,21 +141,24 @@ impl Flood {
         self.collect_sides(mesh)
     }
 
-    /// Reads what becomes of the facets of a cell. Bits beyond the end are 0.
+    /// Reads what becomes of the facets of a cell but the one it was entered by, from a bit on; says which bit is next. Bits beyond the end are 0.
     #[inline]
-    fn look_around(&mut self, mesh: &mut Complex, here: usize, bits: &Bits, mut read: u32) -> u32 {
-        let mut next = bits.window(read);
-        for (k, outer) in (4 * here as u32..).zip(self.cells[here].beyond) {
-            let met = Met { of: k, outer };
-            let bit = next & 1 == 1;
-            // A cell that is not there is destroyed already.
-            let open = mesh.meet(met.outer >> 2, bit);
-            self.doors.offer(met, open & bit);
-            self.walls.offer(met, open & !bit);
-            next >>= u32::from(open);
-            read += u32::from(open);
-        }
-        read
+    fn look_around(&mut self, mesh: &mut Complex, here: usize, bits: &Bits, read: u32) -> u32 {
+        const OTHERS: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
+        let next = bits.window(read);
+        let entry = usize::from(self.cells[here].entry & 3);
+        OTHERS[entry].into_iter().fold(0, |met, k| met + self.look(mesh, here, k, next >> met)) + read
+    }
+
+    /// Reads what becomes of a facet. Says how many bits that took: none, if the cell beyond was destroyed before.
+    #[inline(always)]
+    fn look(&mut self, mesh: &mut Complex, here: usize, k: usize, bits: u32) -> u32 {
+        let met = Met { of: (4 * here + k) as u32, outer: self.cells[here].beyond[k] };
+        let bit = bits & 1 == 1;
+        let open = mesh.meet(met.outer >> 2, bit);
+        self.doors.offer(met, open & bit);
+        self.walls.offer(met, open & !bit);
+        u32::from(open)
     }
 
     #[inline]
@@ -163,7 +170,8 @@ impl Flood {
         let from = &self.cells[(door.of >> 2) as usize];
         let replaced = |old: &[u32; 4], new| [0, 1, 2, 3].map(|k| if k == door.of & 3 { new } else { old[k as usize] });
         let (v, local) = (replaced(&from.v, own), replaced(&from.local, number));
-        Flooded { slot, positive: !from.positive, v, beyond: v.map(|w| cell.beyond[place(&cell, w)]), local }
+        let beyond = v.map(|w| cell.beyond[place(&cell, w)]);
+        Flooded { slot, positive: !from.positive, entry: (door.of & 3) as u8, v, beyond, local }
     }
 
     /// Turns walls to sides.
