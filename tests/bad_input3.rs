@@ -177,7 +177,7 @@ fn medit_and_gmsh() {
             ("many nodes", "\n4\n", "\n1000000\n", Some(&["line 5", "1000000", "bytes"])),
             ("many elements", "\n1\n1 4", "\n1000000\n1 4", Some(&["line 12", "1000000", "bytes"])),
             ("index", "1 2 3 4\n", "1 2 3 9\n", Some(&["line 13", "element 1", "no node 9"])),
-            ("a hexahedron", "1 4 2", "1 5 2", Some(&["line 13", "the type of the element is 5"])),
+            ("a hexahedron", "1 4 2", "1 5 2", Some(&["line 13", "it is a hexahedron"])),
             ("repeated point", "2 7 0", "2 0 0", None),
             ("1e-300", "2 7 0", "2 1e-300 0", None),
         ],

@@ -223,6 +223,56 @@ fn mutations_of_a_mesh_are_refused() {
     violated(&said, "valid");
 }
 
+/// A certificate has no events; its triangulation is the mesh at the end.
+#[test]
+fn a_certificate_becomes_a_mesh() {
+    let f = folder("space_certificate");
+    fs::write(f.join("p.xyz"), xyz(60)).unwrap();
+    let done = json(&f, "triangulate p.xyz -o m.ele --trace c.obt --json", 0);
+    json(&f, "triangulate p.xyz --trace s.obt --steps --json", 0);
+    for trace in ["c.obt", "s.obt"] {
+        expect(&f, &format!("replay {trace} -o r.ele"), 0);
+        for part in ["ele", "node"] {
+            let [once, again] = ["m", "r"].map(|name| fs::read(f.join(name).with_extension(part)).unwrap());
+            assert_eq!(once, again, "{trace}");
+        }
+    }
+    let said = String::from_utf8(expect(&f, "replay c.obt --to 0 -o n.ele", 2).stderr).unwrap();
+    assert!(said.contains("no event; leave --to away"), "{said}");
+    let said = String::from_utf8(expect(&f, "convert c.obt c.vtu", 2).stderr).unwrap();
+    assert!(said.contains("`replay TRACE -o MESH`"), "{said}");
+    // What was verified is told, and only what it was.
+    let verified = json(&f, "verify c.obt --json --spacing", 0);
+    let told = [&verified["points"], &verified["simplices_at_start"]];
+    assert_eq!((told, verified.get("rows")), ([&60.into(), &done["counts"]["cells"]], None));
+    let said = String::from_utf8(expect(&f, "verify c.obt", 0).stdout).unwrap();
+    assert!(said.starts_with("accepted: 0 events, 60 points, "), "{said}");
+}
+
+/// Options that would do nothing are refused, and what a reader left out is told.
+#[test]
+fn check_ignores_nothing() {
+    let f = folder("space_ignores");
+    fs::write(f.join("w.xyz"), "0 0 0 1\n2 0 0 1.5\n0 2 0 1\n0 0 2 1\n").unwrap();
+    expect(&f, "triangulate w.xyz --weights 4 -o w.ele -o w.vtu", 0);
+    let says = |arguments: &str, code: i32, words: &str| {
+        let said = String::from_utf8(expect(&f, arguments, code).stderr).unwrap();
+        assert!(said.contains(words), "{arguments}: {said}");
+    };
+    says("check w.ele", 0, "note: column 5, an attribute, is left out (--weights and --radii take a column)");
+    says("check w.vtu --radius-edge 2 --claims valid", 2, "add it: --claims ...,quality");
+    says("check w.vtu --radius-edge 2 --claims valid,quality", 0, "");
+    says("check w.vtu --within 3", 2, "--within is not for meshes of space");
+    says("triangulate w.xyz --threads 0", 2, "1..");
+    says("check w.meshb", 2, ".meshb is not read here");
+    says("convert w.vtu w.stl", 2, "w.stl: its extension names no format");
+    // Ten nodes of one tetrahedron of second order.
+    let nodes: String = (1..=10).map(|i| format!("{i} {i} {} {}\n", i * i, i * i * i)).collect();
+    fs::write(f.join("s.node"), format!("10 3 0 0\n{nodes}")).unwrap();
+    fs::write(f.join("s.ele"), "1 10 0\n1 1 2 3 4 5 6 7 8 9 10\n").unwrap();
+    says("check s.ele --claims topology", 0, "note: the elements are of second order; 6 nodes");
+}
+
 #[test]
 fn meshes_and_points_convert() {
     let f = folder("space_convert");

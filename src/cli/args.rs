@@ -33,7 +33,7 @@ pub enum Command {
     Triangulate(TriangulateArgs),
     /// Show where two traces first differ
     Diff(DiffArgs),
-    /// Write the mesh as it was after an event of a trace
+    /// Write the mesh as it was after an event of a trace, or at its end
     Replay(ReplayArgs),
     /// Compute a table or figure of a paper: published, ours, corrected
     Reproduce(ReproduceArgs),
@@ -132,10 +132,10 @@ pub struct RunArgs {
     /// Run both kernels and compare every byte of their traces
     #[arg(long)]
     pub mirror: bool,
-    /// Most events; then the run is stopped with a valid mesh
+    /// Most steps; then the run is stopped: with a valid mesh, or in space without a file
     #[arg(long, value_name = "N", default_value_t = 10_000_000)]
     pub max_steps: u64,
-    /// Most seconds; then the run is stopped with a valid mesh
+    /// Most seconds; then likewise
     #[arg(long, value_name = "S")]
     pub max_seconds: Option<f64>,
 }
@@ -202,9 +202,9 @@ pub struct CheckArgs {
     /// What to check, comma-separated
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub claims: Vec<String>,
-    /// How far a vertex may be off its segment, in ulps of the bounding box
-    #[arg(long, value_name = "ULPS", default_value_t = 2.0)]
-    pub within: f64,
+    /// How far a vertex may be off its segment, in ulps of the bounding box. Default: 2
+    #[arg(long, value_name = "ULPS")]
+    pub within: Option<f64>,
     /// Least angle claimed, in degrees; without it, quality is only told
     #[arg(long, value_name = "DEG")]
     pub min_angle: Option<f64>,
@@ -241,8 +241,8 @@ pub struct TriangulateArgs {
     #[command(flatten)]
     pub column: ColumnArgs,
     /// Threads, in space; any number gives the same triangulation. Default: all cores
-    #[arg(long, value_name = "N")]
-    pub threads: Option<std::num::NonZeroU16>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
     /// In space: the trace tells every insertion, not the finished triangulation alone
     #[arg(long)]
     pub steps: bool,
@@ -280,9 +280,9 @@ pub struct DiffArgs {
 pub struct ReplayArgs {
     /// The trace
     pub trace: PathBuf,
-    /// The last event to replay
+    /// The last event to replay. Default: the end of the trace
     #[arg(long, value_name = "N")]
-    pub to: u64,
+    pub to: Option<u64>,
     /// A file to write; may be given more than once
     #[arg(short, long, value_name = "FILE", required = true)]
     pub output: Vec<PathBuf>,

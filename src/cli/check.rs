@@ -2,7 +2,7 @@
 
 use super::args::CheckArgs;
 use super::files::read_any_mesh;
-use super::input::load;
+use super::input::{load, tell_notes};
 use super::report::figures;
 use super::{Answer, Failure, Status, data, talk};
 use crate::arith::angle::rho2_from_min_angle;
@@ -27,8 +27,14 @@ const EVERYDAY_IN_SPACE: [space::Claim; 5] = {
 /// Audits a mesh. Exit code 1 if a claim is violated, or if one that the file could prove is unchecked.
 pub fn run(args: &CheckArgs) -> Answer {
     match read_any_mesh(&args.mesh, args.column.column().as_ref())? {
-        AnyMesh::Plane(mesh) => plane(args, &mesh),
-        AnyMesh::Space(mesh) => in_space(args, &mesh),
+        AnyMesh::Plane(mesh) => {
+            tell_notes(&mesh.notes);
+            plane(args, &mesh)
+        }
+        AnyMesh::Space(mesh) => {
+            tell_notes(&mesh.notes);
+            in_space(args, &mesh)
+        }
     }
 }
 
@@ -41,7 +47,8 @@ fn not_for(args: &CheckArgs, what: &str, options: &[(&str, bool)]) -> Result<(),
 }
 
 fn in_space(args: &CheckArgs, mesh: &ForeignMesh3) -> Answer {
-    not_for(args, "space", &[("--input", args.input.is_some()), ("--min-angle", args.min_angle.is_some())])?;
+    let options = [args.input.is_some(), args.min_angle.is_some(), args.within.is_some()];
+    not_for(args, "space", &["--input", "--min-angle", "--within"].into_iter().zip(options).collect::<Vec<_>>())?;
     let mut everyday = EVERYDAY_IN_SPACE;
     if mesh.weights.iter().any(|&w| w != 0.0) {
         everyday[2] = space::Claim::Regular;
@@ -50,6 +57,7 @@ fn in_space(args: &CheckArgs, mesh: &ForeignMesh3) -> Answer {
     if args.radius_edge.is_some_and(|rho| !(rho > 0.0 && rho.is_finite())) {
         return Err(Failure::new("--radius-edge: must be a positive number"));
     }
+    needs(&claims, space::Claim::Quality, "--radius-edge", args.radius_edge.is_some())?;
     let subject = space::Subject {
         points: &mesh.points,
         weights: &mesh.weights,
@@ -77,9 +85,12 @@ fn plane(args: &CheckArgs, mesh: &ForeignMesh) -> Answer {
     let column = args.column.column().is_some();
     not_for(args, "the plane", &[("--weights or --radii", column), ("--radius-edge", args.radius_edge.is_some())])?;
     let claims = claims(&args.claims, &EVERYDAY, &Claim::ALL)?;
-    if !(args.within >= 0.0 && args.within.is_finite()) {
-        return Err(Failure::new(format_args!("--within {}: must be a number of ulps, 0 or more", args.within)));
+    let within = args.within.unwrap_or(2.0);
+    if !(within >= 0.0 && within.is_finite()) {
+        return Err(Failure::new(format_args!("--within {within}: must be a number of ulps, 0 or more")));
     }
+    needs(&claims, Claim::Quality, "--min-angle", args.min_angle.is_some())?;
+    needs(&claims, Claim::Conforming, "--within", args.within.is_some())?;
     let rho2 = args.min_angle.map(rho2_from_min_angle).transpose();
     let rho2 = rho2.map_err(|e| Failure::new(format_args!("--min-angle: {e}")))?;
     let fill = args.convex.then_some(Fill::Convex);
@@ -102,7 +113,7 @@ fn plane(args: &CheckArgs, mesh: &ForeignMesh) -> Answer {
     // The lines of the file belong to its own elements, not to the repaired ones.
     let no_lines = crate::model::Lines::default();
     let input = loaded.as_ref().map(|l| (&l.prepared.pslg, &no_lines));
-    let report = audit(&subject, &Options { claims: &claims, input, within: args.within, rho2 });
+    let report = audit(&subject, &Options { claims: &claims, input, within, rho2 });
     // These two need an input, and are asked for unless others are named.
     let optional = [Claim::Constrained, Claim::Conforming];
     let verdict = report.verdict(|c| !args.claims.is_empty() || !optional.contains(c));
@@ -116,6 +127,15 @@ fn plane(args: &CheckArgs, mesh: &ForeignMesh) -> Answer {
         data(report.to_string().trim_end())?;
     }
     Ok(if verdict == Verdict::Holds { Status::Well } else { Status::No })
+}
+
+/// Refuses an option that makes a claim which is not among those to be checked.
+fn needs<C: Named + PartialEq>(claims: &[C], claim: C, option: &str, given: bool) -> Result<(), Failure> {
+    if !given || claims.contains(&claim) {
+        return Ok(());
+    }
+    let name = claim.name();
+    Err(Failure::new(format_args!("{option} is a bound of the claim `{name}`; add it: --claims ...,{name}")))
 }
 
 /// The answers for programs.

@@ -2,8 +2,9 @@
 
 use super::args::ConvertArgs;
 use super::files::{Staged, companion, extension, open, read, read_any_mesh};
-use super::input::read_input;
+use super::input::{read_input, tell_notes};
 use super::outputs::{check_alone, spare_file, spare_input, spare_input3, stage, stage3, tell_lost};
+use super::watch::{Limit, catch_interrupts};
 use super::{Answer, Failure, Status, talk};
 use crate::io::{self, AnyMesh, Format, point_dimension, write};
 use crate::model::{Fill, PointSet3};
@@ -16,9 +17,17 @@ pub fn run(args: &ConvertArgs) -> Answer {
     spare_file(&args.to, &args.from)?;
     let mut staged = Staged::default();
     match [&args.from, &args.to].map(|path| trace_format(path)) {
-        [Some(_), Some(to)] => convert_trace(&args.from, &args.to, to, &mut staged)?,
+        [Some(_), Some(to)] => {
+            let status = convert_trace(&args.from, &args.to, to, &mut staged)?;
+            if status != Status::Well {
+                return Ok(status);
+            }
+        }
         [Some(_), None] => {
-            return Err(Failure::at(&args.to, "a trace converts to .jsonl or .obt; `replay` makes a mesh of it"));
+            return Err(Failure::at(
+                &args.to,
+                "a trace converts to .jsonl or .obt; `replay TRACE -o MESH` makes a mesh of it",
+            ));
         }
         [None, Some(_)] => return Err(Failure::at(&args.from, "only a trace converts to a trace")),
         [None, None] if is_points(args)? => points(args, &mut staged)?,
@@ -68,7 +77,7 @@ fn points(args: &ConvertArgs, staged: &mut Staged) -> Result<(), Failure> {
     let column = args.column.column();
     let input = io::read_points3(from, &read(&args.from)?, column.as_ref()).ok_or_else(known)?;
     let input = input.map_err(|e| Failure::at(&args.from, e))?;
-    input.notes.iter().for_each(|note| talk(&note.text));
+    tell_notes(&input.notes);
     write_points(&input.set, args, to, staged)
 }
 
@@ -89,7 +98,7 @@ fn points_of_mesh(args: &ConvertArgs, to: Format, staged: &mut Staged) -> Result
     let bytes = read(&args.from)?;
     let mesh = io::read_mesh3(from, &bytes, args.column.column().as_ref(), companion(&args.from)).ok_or_else(known)?;
     let mesh = mesh.map_err(|e| Failure::at(&args.from, e))?;
-    mesh.notes.iter().for_each(|note| talk(&note.text));
+    tell_notes(&mesh.notes);
     let [cells, triangles, edges] = [mesh.tetrahedra.len(), mesh.triangles.len(), mesh.edges.len()];
     if cells + triangles + edges > 0 {
         tell_lost(&args.to, "elements");
@@ -102,15 +111,19 @@ fn mesh(args: &ConvertArgs, staged: &mut Staged) -> Result<(), Failure> {
     if let Some(format @ (Format::Xyz | Format::Csv | Format::Npy | Format::Ply)) = Format::of(&args.to) {
         return points_of_mesh(args, format, staged);
     }
+    if Format::of(&args.to).is_none() {
+        return Err(Failure::at(&args.to, "its extension names no format that is written here"));
+    }
     let to = std::slice::from_ref(&args.to);
     match read_any_mesh(&args.from, args.column.column().as_ref())? {
         AnyMesh::Plane(mesh) => {
+            tell_notes(&mesh.notes);
             spare_input(to, &args.from)?;
             stage(to, &mesh.into_mesh(), None, staged)?;
         }
         AnyMesh::Space(mesh) => {
             spare_input3(to, &args.from)?;
-            mesh.notes.iter().for_each(|note| talk(&note.text));
+            tell_notes(&mesh.notes);
             stage3(to, &mesh, staged)?;
         }
     }
@@ -123,9 +136,7 @@ fn graph(args: &ConvertArgs, staged: &mut Staged) -> Result<(), Failure> {
         return Err(Failure::at(&args.to, "a planar straight line graph converts to .poly; `mesh` makes a mesh of it"));
     }
     let input = read_input(&args.from)?.map_err(|e| Failure::at(&args.from, e))?;
-    for note in &input.notes {
-        talk(&note.text);
-    }
+    tell_notes(&input.notes);
     if input.pslg.fill == Fill::Parity && input.pslg.segments.iter().any(|s| s.toggles) {
         talk(
             "note: .poly knows holes by seeds only; faces that the even-odd rule leaves out are filled unless seeds are added",
@@ -144,10 +155,16 @@ pub fn trace_format(path: &Path) -> Option<trace::Format> {
 }
 
 /// Refuses a trace whose stored digest is not its own, which writing it anew would hide.
-fn convert_trace(from: &Path, to: &Path, format: trace::Format, staged: &mut Staged) -> Result<(), Failure> {
+fn convert_trace(from: &Path, to: &Path, format: trace::Format, staged: &mut Staged) -> Answer {
+    catch_interrupts();
+    let mut limit = Limit::new(None);
     let mut reader = Reader::new(open(from)?);
     let mut writer = Writer::new(staged.create(to)?, format);
     while let Some(record) = reader.next() {
+        if limit.ask().is_some() {
+            talk("outcome   stopped (interrupted); nothing is written");
+            return Ok(Status::Stopped);
+        }
         let record = record.map_err(|e| Failure::at(from, e))?;
         if record.trace_digest().is_some_and(|digest| digest != reader.digest()) {
             return Err(Failure::at(from, "the digest of the trace does not fit its content"));
@@ -155,5 +172,5 @@ fn convert_trace(from: &Path, to: &Path, format: trace::Format, staged: &mut Sta
         writer.record(&record).map_err(|e| Failure::at(to, e))?;
     }
     writer.finish().map_err(|e| Failure::at(to, e))?;
-    Ok(())
+    Ok(Status::Well)
 }

@@ -28,7 +28,10 @@ pub fn companion(path: &Path) -> impl FnMut(Format) -> Option<Vec<u8>> {
 
 /// Reads a mesh of the plane or of space by its extension and content. `column`: where the weights of points of space stand.
 pub fn read_any_mesh(path: &Path, column: Option<&Column>) -> Result<AnyMesh, Failure> {
-    let known = || Failure::at(path, "meshes are read from .vtu, .vtk, .msh, .mesh, .off, .node, .ele");
+    let known = || match extension(path).as_str() {
+        "meshb" => Failure::at(path, "binary .meshb is not read here; save the mesh as .mesh, which is text"),
+        _ => Failure::at(path, "meshes are read from .vtu, .vtk, .msh, .mesh, .off, .node, .ele, .face, .edge, .poly"),
+    };
     let format = Format::of(path).filter(|f| f.reads_mesh() || f.reads_mesh3()).ok_or_else(known)?;
     let bytes = read(path)?;
     let mesh = io::read_any_mesh(format, &bytes, column, companion(path)).ok_or_else(known)?;

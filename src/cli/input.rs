@@ -149,6 +149,11 @@ pub fn syntax(e: &ReadError) -> Entry {
     Entry { severity: Severity::Error, text: format!("error: {e}"), json }
 }
 
+/// Says what a reader did or left out.
+pub fn tell_notes(notes: &[Note]) {
+    notes.iter().for_each(|n| talk(note(n).text));
+}
+
 /// A reader's note as an entry.
 pub fn note(n: &Note) -> Entry {
     let (severity, name) = match n.kind {

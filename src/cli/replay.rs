@@ -10,7 +10,7 @@ use crate::model::words::counted;
 use crate::model::{Mesh2, Pslg, VertexKind};
 use crate::trace::{Event, Reader, Record};
 
-/// Replays a trace on the checker's own complex, which proves each event on the way, and writes the mesh after event `--to`. Since a
+/// Replays a trace on the checker's own complex, which proves each event on the way, and writes the mesh after event `--to`, or at the end. Since a
 /// deletion only makes room for a split, a replay to a deletion goes on to its split; in space one to a removal goes on until the points it set free are placed. Exit code 1 if an event is not justified.
 pub fn run(args: &ReplayArgs) -> Answer {
     let mut checker = Checker::new(Options { strict: false, digests: false });
@@ -33,23 +33,29 @@ pub fn run(args: &ReplayArgs) -> Answer {
             let number = last.map_or(0, |n: u64| n + 1);
             last = Some(number);
             let waits = matches!(record, Record::Event(Event::Remove { .. })) || !checker.is_settled();
-            reached = number >= args.to && !waits;
+            reached = args.to.is_some_and(|to| number >= to) && !waits;
             if reached {
                 break;
             }
         }
     }
-    if !reached {
-        let end = last.map_or("no event".to_string(), |n| format!("events 0 to {n}"));
-        return Err(Failure::new(format_args!("--to {}: the trace has {end}", args.to)));
+    if let Some(to) = args.to
+        && !reached
+    {
+        let end = last.map_or("no event; leave --to away".to_string(), |n| format!("events 0 to {n}"));
+        return Err(Failure::new(format_args!("--to {to}: the trace has {end}")));
     }
     let mut staged = Staged::default();
-    let event = last.unwrap_or(args.to);
+    let event = match (last, args.to) {
+        (Some(n), Some(to)) if n > to => format!("event {n}, to which event {to} leads"),
+        (Some(n), _) => format!("event {n}"),
+        (None, _) => "the end, without events".into(),
+    };
     if let Some(t) = checker.triangulation() {
         stage3(&args.output, &ForeignMesh3::from(&t), &mut staged)?;
         staged.commit()?;
         talk(format_args!(
-            "event {event}: {}, {}",
+            "{event}: {}, {}",
             counted(t.points.len(), "point"),
             counted(t.simplices().len(), "simplex")
         ));
@@ -59,7 +65,7 @@ pub fn run(args: &ReplayArgs) -> Answer {
     stage(&args.output, &mesh, Some(&domain), &mut staged)?;
     staged.commit()?;
     talk(format_args!(
-        "event {event}: {}, {}",
+        "{event}: {}, {}",
         counted(mesh.points.len(), "vertex"),
         counted(mesh.triangles.len(), "triangle")
     ));

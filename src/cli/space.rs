@@ -32,6 +32,9 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+/// How many notes are told before a run, so that its answer stays in sight.
+const TOLD: usize = 5;
+
 /// Whether a file holds points of space. Errors: the header of a `.node` file cannot be read.
 pub fn is_spatial(path: &Path) -> Result<bool, Failure> {
     let Some(format) = Format::of(path) else {
@@ -122,7 +125,7 @@ pub fn examined(path: &Path, column: Option<&Column>) -> Result<Vec<Entry>, Fail
         });
     }
     if let Some(what) = flatness(t.dimension()) {
-        entries.push(entry(Severity::Note, "flat", &[], format!("{what}; so is the triangulation"), "none needed"));
+        entries.push(entry(Severity::Note, "flat", &[], what.into(), "none needed"));
     }
     entries.sort_by_key(|e| e.severity);
     Ok(entries)
@@ -132,9 +135,9 @@ pub fn examined(path: &Path, column: Option<&Column>) -> Result<Vec<Entry>, Fail
 fn flatness(dimension: Option<u8>) -> Option<&'static str> {
     match dimension {
         None => Some("there are no points"),
-        Some(0) => Some("all points are at one place"),
-        Some(1) => Some("all points lie on one line"),
-        Some(2) => Some("all points lie in one plane"),
+        Some(0) => Some("all points are at one place, which is the triangulation"),
+        Some(1) => Some("all points lie on one line, and so does the triangulation"),
+        Some(2) => Some("all points lie in one plane, and so does the triangulation"),
         Some(_) => None,
     }
 }
@@ -243,14 +246,17 @@ pub fn triangulate(args: &TriangulateArgs) -> Answer {
         tell_refusal(&entries, path, out.json)?;
         return Ok(Status::Refused);
     }
-    entries.iter().take(5).for_each(|e| talk(&e.text));
+    entries.iter().take(TOLD).for_each(|e| talk(&e.text));
+    if entries.len() > TOLD {
+        talk(format_args!("and {} (`doctor` lists all)", counted(entries.len() - TOLD, "more note")));
+    }
     catch_interrupts();
     let certificate = if args.steps { Certificate::Steps } else { Certificate::Final };
     let all = thread::available_parallelism().map_or(1, usize::from);
-    let job =
-        Job { set: Arc::new(set), certificate, threads: args.threads.map_or(all, |n| usize::from(n.get()).min(64)) };
+    let begun = Instant::now();
+    let job = Job { set: Arc::new(set), certificate, threads: args.threads.map_or(all, |n| usize::from(n).min(64)) };
     if job.set.points.len() as u64 > how.max_steps {
-        return stopped(format!("--max-steps {}: there are more points", how.max_steps), path, out);
+        return stopped(format!("--max-steps {}: there are more points", how.max_steps), path, out, begun);
     }
     let mut staged = Staged::default();
     let target = match (&out.trace, format) {
@@ -258,7 +264,7 @@ pub fn triangulate(args: &TriangulateArgs) -> Answer {
         _ if how.mirror => Target::Memory(Box::new(Writer::new(Vec::new(), trace::Format::Binary))),
         _ => Target::Nowhere,
     };
-    let (begun, mut limit) = (Instant::now(), Limit::new(how.max_seconds));
+    let mut limit = Limit::new(how.max_seconds);
     let (first, kernel) = (job.clone(), if how.mirror { KernelName::Fast } else { how.kernel });
     let done = until(&mut limit, move || {
         let mut target = target;
@@ -268,7 +274,7 @@ pub fn triangulate(args: &TriangulateArgs) -> Answer {
     });
     let (result, events, target) = match done {
         Ok(done) => done,
-        Err(reason) => return stopped(reason, path, out),
+        Err(reason) => return stopped(reason, path, out, begun),
     };
     let t = result.map_err(|e| Failure::at(path, e))?;
     let seconds = begun.elapsed().as_secs_f64();
@@ -276,7 +282,7 @@ pub fn triangulate(args: &TriangulateArgs) -> Answer {
     let mirror = if how.mirror {
         match mirrored(&job, &mut limit, first_trace(out, &staged, memory)?) {
             Ok(mirror) => Some(mirror),
-            Err(reason) => return stopped(reason, path, out),
+            Err(reason) => return stopped(reason, path, out, begun),
         }
     } else {
         None
@@ -301,11 +307,14 @@ pub fn triangulate(args: &TriangulateArgs) -> Answer {
 }
 
 /// A run that was stopped: nothing is written.
-fn stopped(reason: String, path: &Path, out: &OutArgs) -> Answer {
+fn stopped(reason: String, path: &Path, out: &OutArgs, begun: Instant) -> Answer {
     talk(format_args!("outcome   stopped ({reason}); a part of a triangulation is none: nothing is written"));
     if out.json {
         let input = path.display().to_string();
-        data(json!({"outcome": "stopped", "stop_reason": reason, "input": input, "files": []}))?;
+        data(json!({
+            "outcome": "stopped", "stop_reason": reason, "level": null, "counts": {}, "quality": {}, "unmet": [],
+            "digests": {}, "seconds": begun.elapsed().as_secs_f64(), "input": input, "files": [],
+        }))?;
     }
     Ok(Status::Stopped)
 }
@@ -380,20 +389,17 @@ impl Summary<'_> {
             Some(1) => "edge",
             _ => "point",
         };
-        let simplices = match (self.t.simplices().len(), noun) {
-            (n, "tetrahedron") if n != 1 => format!("{n} tetrahedra"),
-            (n, noun) => counted(n, noun),
-        };
+        let simplices = counted(self.t.simplices().len(), noun);
         talk("outcome   complete");
         talk(format_args!(
             "points    {}: {}, {hidden} hidden, {}",
             self.t.points.len(),
-            counted(vertices, "vertex").replace("vertexs", "vertices"),
+            counted(vertices, "vertex"),
             counted(duplicates, "duplicate")
         ));
         talk(format_args!("cells     {simplices}"));
         if let Some(what) = flatness(self.t.dimension) {
-            talk(format_args!("note: {what}; so is the triangulation"));
+            talk(format_args!("note: {what}"));
         }
         for (name, digest) in ["mesh", "trace"].iter().zip(&self.digests) {
             if let Some(digest) = digest {

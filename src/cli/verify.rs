@@ -45,6 +45,8 @@ pub fn run(args: &VerifyArgs) -> Answer {
         input,
         stated: Pslg::default(),
         stated3: Vec::new(),
+        points: 0,
+        simplices: 0,
     };
     let mut rejection = None;
     while let Some(record) = reader.next() {
@@ -86,6 +88,9 @@ struct Judge {
     stated: Pslg,
     /// Points of space as the trace states them, with their places in the input.
     stated3: Vec<(u32, WeightedPoint)>,
+    /// Points of space and simplices of the start, to be told.
+    points: u64,
+    simplices: u64,
 }
 
 /// What a trace is to be of.
@@ -98,6 +103,14 @@ impl Judge {
     fn record(&mut self, record: &Record) -> Result<(), Rejection> {
         if self.input.is_some() {
             self.compare(record)?;
+        }
+        match record {
+            Record::Space(Record3::Vertex { .. }) => self.points += 1,
+            Record::Space(Record3::Simplex(_)) => self.simplices += 1,
+            Record::Space(Record3::Header(_)) if self.spacing.take().is_some() => {
+                talk("note: --spacing has nothing to prove of points in space");
+            }
+            _ => {}
         }
         self.checker.push(record).map_err(|r| Rejection {
             event: r.event.to_string(),
@@ -177,6 +190,10 @@ impl Judge {
                 unchecked.iter().map(|u| json!({"rule": u.rule.to_string(), "reason": u.reason})).collect();
             let mut value =
                 json!({"verdict": "accepted", "events": events, "unchecked": unchecked, "seconds": seconds});
+            if self.points > 0 {
+                value["points"] = self.points.into();
+                value["simplices_at_start"] = self.simplices.into();
+            }
             if let Some(report) = spacing {
                 let row = |(row, c): (&Row, &Count)| {
                     (row.to_string(), json!({"held": c.held, "undecided": c.undecided, "unclaimed": c.unclaimed}))
@@ -187,7 +204,13 @@ impl Judge {
             }
             data(value)?;
         } else {
-            data(format_args!("accepted: {}", counted(events, "event")))?;
+            let start = if self.points == 0 {
+                String::new()
+            } else {
+                let (points, simplices) = (counted(self.points, "point"), counted(self.simplices, "simplex"));
+                format!(", {points}, {simplices} at the start")
+            };
+            data(format_args!("accepted: {}{start}", counted(events, "event")))?;
             for u in &unchecked {
                 data(format_args!("unchecked: {}: {}", u.rule, u.reason))?;
             }

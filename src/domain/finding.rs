@@ -83,7 +83,7 @@ impl Kind {
         use Kind::*;
         match self {
             NotFinite => "give a finite decimal number",
-            OutOfRange => "scale or shift the input; write 0 for a coordinate that is meant to be 0",
+            OutOfRange => "scale or shift the input; write 0 for a number that is meant to be 0",
             BadIndex => {
                 "correct the index; in .poly files the first vertex is numbered 0 or 1 and that numbering holds throughout"
             }

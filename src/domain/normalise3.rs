@@ -56,7 +56,7 @@ pub fn normalise3(set: &PointSet3) -> Result<(Vec<WeightedPoint>, Scale), Vec<Fi
         });
         match refusal {
             Some((kind, why)) => findings.add(kind, || {
-                let message = format!("point {i} at ({:e}, {:e}, {:e}) {why}", p.at.x, p.at.y, p.at.z);
+                let message = format!("point {i} at ({:?}, {:?}, {:?}) {why}", p.at.x, p.at.y, p.at.z);
                 let line = set.lines.get(i).copied().unwrap_or(0);
                 Finding::in_space(kind, VertexId(i as u32), p.at, line, message)
             }),
@@ -76,7 +76,7 @@ pub fn normalise3_at(p: WeightedPoint, id: VertexId, scale: Scale) -> Result<Wei
     match refusal(p, scale).or_else(far) {
         None => Ok(scale.to_normal3(p)),
         Some((kind, why)) => {
-            let message = format!("point {} at ({:e}, {:e}, {:e}) {why}", id.0, p.at.x, p.at.y, p.at.z);
+            let message = format!("point {} at ({:?}, {:?}, {:?}) {why}", id.0, p.at.x, p.at.y, p.at.z);
             Err(Box::new(Finding::in_space(kind, id, p.at, 0, message)))
         }
     }
@@ -88,20 +88,22 @@ fn refusal(p: WeightedPoint, scale: Scale) -> Option<(Kind, String)> {
         return Some((Kind::NotFinite, "has a coordinate that is not finite".into()));
     }
     if !p.weight.is_finite() {
-        return Some((Kind::NotFinite, format!("has a weight that is not finite: {:e}", p.weight)));
+        return Some((Kind::NotFinite, format!("has a weight that is not finite: {:?}", p.weight)));
     }
     let normal = scale.to_normal3(p);
     let least = power_of_two(LEAST_COORDINATE);
     let small = |x: f64, input: f64| input != 0.0 && x.abs() < least;
     let (q, e) = (normal.at, scale.exponent);
     if small(q.x, p.at.x) || small(q.y, p.at.y) || small(q.z, p.at.z) {
-        let why = format!("has a nonzero coordinate below 2^{LEAST_COORDINATE} of the extent 2^{e} of all points");
+        let why = format!(
+            "has a nonzero coordinate below 2^{LEAST_COORDINATE} (about 10^-43) of the largest coordinate, which is at most 2^{e}"
+        );
         return Some((Kind::OutOfRange, why));
     }
     let weights = power_of_two(LEAST_WEIGHT)..=power_of_two(GREATEST_WEIGHT);
     if p.weight != 0.0 && !weights.contains(&normal.weight.abs()) {
         let why = format!(
-            "has a nonzero weight {:e} outside of 2^{LEAST_WEIGHT} to 2^{GREATEST_WEIGHT} of the square of the extent 2^{e}",
+            "has a nonzero weight {:?} outside of 2^{LEAST_WEIGHT} to 2^{GREATEST_WEIGHT} of the square of the largest coordinate, which is at most 2^{e}",
             p.weight
         );
         return Some((Kind::OutOfRange, why));

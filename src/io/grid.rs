@@ -3,9 +3,11 @@
 //! A grid is points, cells (runs of `connectivity` that end at `offsets`, with a number for the type of each) and arrays of both. Corners come
 //! before the nodes between them in every type of second order.
 
+use super::number::decimal;
 use super::points::Weights;
 use super::scalar::index;
 use super::{Column, ColumnName, ForeignEdge, ForeignMesh3, ForeignTriangle, ReadError, error::shown};
+use crate::model::words::counted;
 use crate::model::{Point3, VertexId};
 
 /// A number of an array with its line, 0 in binary arrays.
@@ -61,21 +63,31 @@ impl Cells {
             let end = index(offset, self.connectivity.len() + 1).filter(|&end| end >= from);
             let Some(end) = end else {
                 let fix = "offsets ascend up to the length of connectivity";
-                return Err(bad(format!("its offset is {offset:?}"), fix));
+                return Err(bad(format!("its offset is {}", decimal(offset)), fix));
             };
             nodes.clear();
             for &(x, line) in self.connectivity[from..end].iter().take(MOST_CORNERS + 1) {
                 let id = index(x, points);
                 let id = id.ok_or_else(|| ReadError {
                     line,
-                    ..bad(format!("there is no vertex {x:?}"), "vertices are numbered from 0")
+                    ..bad(format!("there is no vertex {}", decimal(x)), "vertices are numbered from 0")
                 })?;
                 // Counts are below 2^31.
                 nodes.push(VertexId(id as u32));
             }
             let kind = kind as i64;
             if !take(Cell { number, kind, nodes: &nodes, line }) {
-                return Err(bad(format!("its type is {kind} and it has {} corners", end - from), wanted));
+                let problem = match (kind, end - from) {
+                    (7, _) => "it is a polygon".into(),
+                    (8, 4) => "it is a pixel".into(),
+                    (9, 4) => "it is a quadrilateral".into(),
+                    (11, 8) => "it is a voxel".into(),
+                    (12, 8) => "it is a hexahedron".into(),
+                    (13, 6) => "it is a wedge".into(),
+                    (14, 5) => "it is a pyramid".into(),
+                    (kind, corners) => format!("its type is {kind} and it has {}", counted(corners, "corner")),
+                };
+                return Err(bad(problem, wanted));
             }
             from = end;
         }

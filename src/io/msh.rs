@@ -321,10 +321,7 @@ impl<'a> File<'a> {
                 self.id(&mut row)?;
             }
             _ if self.want == Want::Plane => {
-                return Err(row.fault(
-                    format!("the type of the element is {kind}"),
-                    "only points (15), lines (1) and triangles (2) are read here",
-                ));
+                return Err(row.fault(type_named(kind), "only points (15), lines (1) and triangles (2) are read here"));
             }
             8 => {
                 let corners = self.corners(&mut row)?;
@@ -345,7 +342,7 @@ impl<'a> File<'a> {
             }
             _ => {
                 return Err(row.fault(
-                    format!("the type of the element is {kind}"),
+                    type_named(kind),
                     "only points (15), lines (1, 8), triangles (2, 9) and tetrahedra (4, 11) are read here",
                 ));
             }
@@ -496,4 +493,15 @@ fn equal_totals(head: &Row, total: usize, sum: usize) -> Result<(), ReadError> {
     }
     let problem = format!("the total is {total}, but the blocks hold {sum}");
     Err(head.fault(problem, "correct it; perhaps a part is missing"))
+}
+
+/// What an element that is not read here is, for messages.
+pub(super) fn type_named(kind: i64) -> String {
+    match kind {
+        3 => "it is a quadrilateral".into(),
+        5 => "it is a hexahedron".into(),
+        6 => "it is a prism".into(),
+        7 => "it is a pyramid".into(),
+        _ => format!("the type of the element is {kind}"),
+    }
 }

@@ -36,6 +36,13 @@ pub(super) fn push_float(out: &mut Vec<u8>, x: f64) {
     }
 }
 
+/// A number for a message, in that notation.
+pub(super) fn decimal(x: f64) -> String {
+    let mut out = Vec::new();
+    push_float(&mut out, x);
+    String::from_utf8_lossy(&out).into_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

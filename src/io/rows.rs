@@ -48,10 +48,10 @@ pub(super) fn clipped(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }
 
-/// The rows of a text file, in order.
+/// The rows of a text file, in order. Lines end in LF or CR LF; in a file without LF, as old Macintoshes made them, in CR.
 pub(super) struct Rows<'a> {
     part: &'static str,
-    lines: std::str::Lines<'a>,
+    lines: std::str::SplitTerminator<'a, char>,
     line: u32,
     /// 0 where lines are no places of the file.
     step: u32,
@@ -63,7 +63,8 @@ pub(super) struct Rows<'a> {
 impl<'a> Rows<'a> {
     /// Rows of a file whose comments start with `#`.
     pub(super) fn new(part: &'static str, bytes: &'a [u8]) -> Result<Rows<'a>, ReadError> {
-        let lines = text(part, bytes)?.lines();
+        let text = text(part, bytes)?;
+        let lines = text.split_terminator(if text.contains('\n') { '\n' } else { '\r' });
         Ok(Rows { part, lines, line: 0, step: 1, size: bytes.len(), comment: Some('#') })
     }
 
@@ -86,6 +87,7 @@ impl<'a> Rows<'a> {
     pub(super) fn next(&mut self, element: Element) -> Option<Row<'a>> {
         loop {
             let whole = self.lines.next()?;
+            let whole = whole.strip_suffix('\r').unwrap_or(whole);
             self.line = self.line.saturating_add(self.step);
             let body = match self.comment.and_then(|c| whole.find(c)) {
                 Some(at) => &whole[..at],
@@ -192,6 +194,11 @@ impl<'a> Row<'a> {
     /// The next field as a finite number.
     pub(super) fn float(&mut self, name: &str) -> Result<f64, ReadError> {
         let field = self.word(name)?;
+        self.number(field, name)
+    }
+
+    /// The field read last as a finite number.
+    pub(super) fn number(&self, field: &str, name: &str) -> Result<f64, ReadError> {
         number::finite(field).map_err(|problem| {
             self.fault_at(field, format!("{name}: {problem}"), "write a decimal number such as -1.5e3")
         })

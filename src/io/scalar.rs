@@ -26,6 +26,17 @@ impl Scalar {
         }
     }
 
+    /// Whether the number in exactly `size` bytes is an integer that is no double.
+    pub(super) fn is_rounded(self, bytes: &[u8], big_endian: bool) -> bool {
+        let bits = whole(bytes, big_endian);
+        match self {
+            // Beyond 64 bits the casts back saturate, and no such number is equal to a rounded one but the largest, which is told apart.
+            Scalar::I64 => bits as i64 == i64::MAX || (bits as i64 as f64) as i64 != bits as i64,
+            Scalar::U64 => bits == u64::MAX || (bits as f64) as u64 != bits,
+            _ => false,
+        }
+    }
+
     /// The number in exactly `size` bytes as a double: integers beyond 2^53 are rounded to nearest as decimals are. Minus zero becomes zero;
     /// the result may be infinite or no number.
     pub(super) fn value(self, bytes: &[u8], big_endian: bool) -> f64 {

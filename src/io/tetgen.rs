@@ -5,7 +5,8 @@
 //! - `.face`: `triangles markers(0|1)`, then `index corner corner corner [three more] [marker]`, perhaps the tetrahedra beside it, which are left out.
 //! - `.edge`: `edges markers(0|1)`, then `index end end [one more] [marker]`, perhaps a tetrahedron beside it, which is left out.
 //!
-//! Choice: whether triangles and edges have nodes between corners is told by `.ele` alone.
+//! Choice: whether triangles have nodes between corners is told by the length of their rows, since TetGen writes them with `-p` only; of edges `.ele` tells it.
+//! Its header of `.edge` counts twice in second order; then a file of half as many rows is whole.
 
 use super::points::read_node3;
 use super::rows::{Element, Row, Rows};
@@ -38,7 +39,7 @@ pub fn parse_tetgen(files: TetgenFiles, column: Option<&Column>) -> Result<Forei
         None => false,
     };
     if let Some(face) = files.face {
-        triangles(face, &nodes, second_order, &mut mesh, &mut middle)?;
+        triangles(face, &nodes, &mut mesh, &mut middle)?;
     }
     if let Some(edge) = files.edge {
         edges(edge, &nodes, second_order, &mut mesh, &mut middle)?;
@@ -106,7 +107,6 @@ fn tetrahedra(
 fn triangles(
     face: &[u8],
     nodes: &Nodes<Point3>,
-    second_order: bool,
     mesh: &mut ForeignMesh3,
     middle: &mut Vec<VertexId>,
 ) -> Result<(), ReadError> {
@@ -115,8 +115,10 @@ fn triangles(
     for k in 0..count as u64 {
         let mut row = rows.expect(Element::Nth("triangle", k + 1))?;
         row.integer("the number of the triangle")?;
+        // Three corners, a marker and two tetrahedra are fewer than six nodes and a marker.
+        let six = row.fields() > 5 + usize::from(marked);
         let corners = corners(nodes, &mut row)?;
-        if second_order {
+        if six {
             middle.extend(self::corners::<3>(nodes, &mut row)?);
         }
         let marker = if marked { row.marker()? } else { 0 };
@@ -137,7 +139,12 @@ fn edges(
     let mut rows = Rows::new(".edge", edge)?;
     let (count, marked) = header(&mut rows, "the number of edges", 6)?;
     for k in 0..count as u64 {
-        let mut row = rows.expect(Element::Nth("edge", k + 1))?;
+        let element = Element::Nth("edge", k + 1);
+        let mut row = match rows.next(element) {
+            Some(row) => row,
+            None if second_order && 2 * k == count as u64 => break,
+            None => return rows.expect(element).map(drop),
+        };
         row.integer("the number of the edge")?;
         let ends = corners(nodes, &mut row)?;
         if second_order {

@@ -72,7 +72,8 @@ impl<P: Place> Nodes<P> {
             let mut probe = head;
             let dimension = probe.integer("the dimension")?;
             if dimension != P::DIMENSION {
-                return Err(head.fault(format!("the dimension is {dimension}"), P::ONLY));
+                let fix = if matches!(dimension, 2 | 3) { P::ONLY } else { "it must be 2 or 3" };
+                return Err(head.fault(format!("the dimension is {dimension}"), fix));
             }
             head = probe;
         }

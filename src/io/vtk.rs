@@ -5,6 +5,7 @@
 //! `region` of cells (`CellEntityIds` of Gmsh stands in for either); the others are passed over.
 
 use super::grid::{Arrays, Cells, STAND_INS, Value, mesh_of_space, weight_array};
+use super::number::decimal;
 use super::rows::{MOST_ELEMENTS, clipped};
 use super::scalar::{Scalar, index};
 use super::{Column, ForeignMesh3, ReadError, error::shown, number};
@@ -307,7 +308,8 @@ impl<'a> File<'a> {
         while let Some((&(n, line), after)) = rest.split_first() {
             let corners = index(n, after.len() + 1).map(|n| after.split_at(n));
             let (corners, after) = corners.ok_or_else(|| {
-                let problem = format!("cell {} has {n:?} corners, which is more than the list holds", offsets.len());
+                let problem =
+                    format!("cell {} has {} corners, which is more than the list holds", offsets.len(), decimal(n));
                 let line = if self.binary { 0 } else { line };
                 ReadError { line, ..self.fault(problem, "correct the size of the list") }
             })?;

@@ -24,7 +24,11 @@ pub fn listed(noun: &str, numbers: &[u32], most: usize) -> String {
 }
 
 fn plural(noun: &str) -> String {
-    noun.strip_suffix("ex").map_or_else(|| format!("{noun}s"), |stem| format!("{stem}ices"))
+    match (noun.strip_suffix("ex"), noun.strip_suffix("hedron")) {
+        (Some(stem), _) => format!("{stem}ices"),
+        (_, Some(stem)) => format!("{stem}hedra"),
+        _ => format!("{noun}s"),
+    }
 }
 
 #[cfg(test)]
@@ -34,6 +38,7 @@ mod tests {
     #[test]
     fn one_and_many() {
         assert_eq!([0u32, 1, 2].map(|n| counted(n, "vertex")), ["0 vertices", "1 vertex", "2 vertices"]);
+        assert_eq!([1u32, 2].map(|n| counted(n, "tetrahedron")), ["1 tetrahedron", "2 tetrahedra"]);
         assert_eq!(counted(1u64, "hole seed"), "1 hole seed");
         let list = |n: usize| listed("line", &[3, 5, 8, 9][..n], 3);
         assert_eq!(

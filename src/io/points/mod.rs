@@ -20,8 +20,9 @@ pub use off::parse_off3;
 pub use ply::parse_ply;
 pub use xyz::parse_xyz;
 
-use super::rows::{MOST_ELEMENTS, Row};
+use super::rows::{MOST_ELEMENTS, Row, clipped};
 use super::{Note, NoteKind, ReadError, error::shown};
+use crate::model::words::listed;
 use crate::model::{Point3, PointSet3};
 
 /// Points of space as a file states them.
@@ -190,7 +191,10 @@ impl Weights {
         (count > 0).then(|| Note {
             kind: NoteKind::Note,
             line,
-            text: format!("{count} radii have squares that are no doubles; their weights are the nearest ones"),
+            text: match count {
+                1 => "1 radius has a square that is no double; its weight is the nearest one".into(),
+                _ => format!("{count} radii have squares that are no doubles; their weights are the nearest ones"),
+            },
         })
     }
 }
@@ -255,17 +259,21 @@ impl Builder {
             return;
         };
         let which = if names.is_empty() {
+            let numbers: Vec<u32> = columns.iter().map(|&i| clipped(i + 1)).collect();
             if first == last {
                 format!("column {} is", first + 1)
-            } else {
+            } else if last - first + 1 == columns.len() {
                 format!("columns {} to {} are", first + 1, last + 1)
+            } else {
+                format!("{} are", listed("column", &numbers, 20))
             }
         } else {
             let all: Vec<&str> = columns.iter().map(|&i| names[i].as_ref()).take(20).collect();
             format!(
-                "{} {} {}",
+                "{} {}{} {}",
                 if first == last { "column" } else { "columns" },
                 shown_list(&all),
+                if columns.len() > 20 { ", ..." } else { "" },
                 if first == last { "is" } else { "are" }
             )
         };

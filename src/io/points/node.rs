@@ -2,8 +2,10 @@
 //! `index x y z attributes... [marker]`, counted from 0 or 1.
 
 use super::{Column, Input3, Weights, others};
+use crate::io::rows::clipped;
 use crate::io::triangle::{Nodes, read_node};
 use crate::io::{Note, NoteKind, ReadError};
+use crate::model::words::listed;
 use crate::model::{Point3, PointSet3};
 
 /// Reads a `.node` file of dimension 3 as points of space.
@@ -29,8 +31,12 @@ pub(in crate::io) fn read_node3(
     let wanted = column.map(|c| c.find(".node", per + 4, &[""; 0], &taken).map_err(at_line)).transpose()?;
     let left = others(per + 4, &taken, wanted);
     if !left.is_empty() {
-        let text = if left.len() == 1 { "1 attribute is".into() } else { format!("{} attributes are", left.len()) };
-        notes.push(Note { kind: NoteKind::Note, line: nodes.header, text: format!("{text} left out") });
+        let hint = if column.is_none() { " (--weights and --radii take a column)" } else { "" };
+        let columns: Vec<u32> = left.iter().map(|&i| clipped(i + 1)).collect();
+        let (text, are) =
+            (listed("column", &columns, 8), if left.len() == 1 { "an attribute, is" } else { "attributes, are" });
+        let text = format!("{text}, {are} left out{hint}");
+        notes.push(Note { kind: NoteKind::Note, line: nodes.header, text });
     }
     let (Some(column), Some(wanted)) = (column, wanted) else {
         return Ok((nodes, Vec::new()));

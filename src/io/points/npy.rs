@@ -7,7 +7,8 @@
 use super::{Builder, Column, Input3, others};
 use crate::io::rows::{MOST_ELEMENTS, clipped};
 use crate::io::scalar::{Scalar, whole};
-use crate::io::{ReadError, error::shown};
+use crate::io::{Note, NoteKind, ReadError, error::shown};
+use crate::model::words::counted;
 
 /// Reads a `.npy` file as points of space.
 ///
@@ -27,10 +28,12 @@ pub fn parse_npy(bytes: &[u8], column: Option<&Column>) -> Result<Input3, ReadEr
     let mut set = Builder::new(column, rows);
     set.leaves_out(0, &others(columns, &[0, 1, 2], wanted), &[""; 0]);
     let start = bytes.len() - data.len();
+    let mut rounded = 0usize;
     for i in 0..rows {
         let at = |k: usize| if array.fortran { k * rows + i } else { i * columns + k };
-        let number = |k: usize, name: &str| {
+        let mut number = |k: usize, name: &str| {
             let from = at(k) * size;
+            rounded += usize::from(array.scalar.is_rounded(&data[from..from + size], array.big_endian));
             let x = array.scalar.value(&data[from..from + size], array.big_endian);
             if x.is_finite() {
                 return Ok(x);
@@ -42,6 +45,13 @@ pub fn parse_npy(bytes: &[u8], column: Option<&Column>) -> Result<Input3, ReadEr
         let further = wanted.map(|k| number(k, column.map_or("", Column::what))).transpose()?;
         set.push(p, further, clipped(i + 1))
             .map_err(|problem| ReadError { element: format!("row {}", i + 1), ..fault(problem, "") })?;
+    }
+    if rounded > 0 {
+        let text = format!(
+            "of {} beyond 2^53 that no double holds, the nearest doubles are taken",
+            counted(rounded, "integer")
+        );
+        set.notes.push(Note { kind: NoteKind::Note, line: 0, text });
     }
     Ok(set.finish())
 }

@@ -12,6 +12,8 @@ use crate::io::{Note, NoteKind, ReadError, error::shown};
 ///
 /// A column is a property of the vertices, by name or by number. Errors: the first fault.
 pub fn parse_ply(bytes: &[u8], column: Option<&Column>) -> Result<Input3, ReadError> {
+    // Some editors put a byte order mark before a header.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let header = Header::parse(bytes)?;
     let vertex = header.vertex()?;
     let plan = Plan::new(&header, vertex, column)?;
@@ -220,6 +222,7 @@ impl Plan {
         let mut places = [0; 3];
         for (place, name) in places.iter_mut().zip(["x", "y", "z"]) {
             let found = names.iter().position(|n| *n == name);
+            let found = found.or_else(|| names.iter().position(|n| n.eq_ignore_ascii_case(name)));
             *place = found.ok_or_else(|| {
                 header.fault(vertex, format!("it has no property {name}"), "points of space have x, y and z")
             })?;

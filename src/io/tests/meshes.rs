@@ -155,7 +155,7 @@ fn bad_msh() {
     );
     then(
         "1\n1 3 0 1 5 7 5\n$EndElements\n",
-        ".msh line 12: element 1: the type of the element is 3; only points (15), lines (1) and triangles (2) are read here",
+        ".msh line 12: element 1: it is a quadrilateral; only points (15), lines (1) and triangles (2) are read here",
     );
     then(
         "1\n1 2 0 1 5 7 7\n$EndElements\n",
@@ -276,7 +276,7 @@ fn bad_vtu() {
         "\n1 0.1 1\n",
         ".vtu line 96: vertex 1: z is 1.0, but 0.0 before; only planar meshes are read here",
     );
-    with("\n0 1 3\n", "\n0 1 6\n", ".vtu line 105: cell 0: there is no vertex 6.0; vertices are numbered from 0");
+    with("\n0 1 3\n", "\n0 1 6\n", ".vtu line 105: cell 0: there is no vertex 6; vertices are numbered from 0");
     with("\n0 1 3\n", "\n0 -1 3\n", ".vtu line 105: cell 0: there is no vertex -1.0; vertices are numbered from 0");
     with(
         "Name=\"offsets\"",

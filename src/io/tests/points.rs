@@ -60,11 +60,58 @@ fn xyz() {
                 ".xyz line 3: end of file: `1 2 3 4` after the last point; remove it, or correct the count that the file declares",
             ),
             (
-                b"C 1 2 3\n",
+                b"C 1 2 x\n",
                 ".xyz line 1 column 1: point 0: x: `C` is not a number; write a decimal number such as -1.5e3",
             ),
         ],
     );
+}
+
+/// Files of chemistry: a count, a comment, a symbol ahead of the coordinates. What only looks like one is refused.
+#[test]
+fn molecules() {
+    for (text, told) in [
+        (
+            "2\nwater, -76.4 hartree\nO 0 0 1 -.5\nH 1 2 3 .25\n",
+            vec!["a line of comment is left out", "columns 1, 5 are left out"],
+        ),
+        ("2\n\nO 0 0 1 -.5\nH 1 2 3 .25\n", vec!["columns 1, 5 are left out"]),
+        ("O 0 0 1 -.5\nH 1 2 3 .25\n", vec!["columns 1, 5 are left out"]),
+        ("2\nx y z q\n0 0 1\n1 2 3\n", vec!["a line of comment is left out"]),
+    ] {
+        let read = parse_xyz(text.as_bytes(), None).unwrap();
+        assert_eq!((points(&read), notes(&read)), (vec![[0., 0., 1.], [1., 2., 3.]], told), "{text}");
+        survives(|b| parse_xyz(b, None), text.as_bytes());
+    }
+    let read = parse_xyz(b"2\n\nO 0 0 1 -.5\nH 1 2 3 .25\n", Some(&weight("5"))).unwrap();
+    assert_eq!((&read.set.weights[..], notes(&read)), (&[-0.5, 0.25][..], vec!["column 1 is left out"]));
+    let fault = |text: &str| parse_xyz(text.as_bytes(), None).unwrap_err().to_string();
+    for (text, sentence) in [
+        (
+            "1\ncarbon\n6 0 0 1\n",
+            "after a line of comment it has numbers only, of which the first may stand for an element or be x",
+        ),
+        ("2\nnan 0 0\n1 0 0\n", "x: `nan` is not a finite number"),
+        ("nan 0 0 1\n", "x: `nan` is not a finite number"),
+        ("2\nC 0 0 0\nH 1 0 0\nH 0 1 0\n", "`H 0 1 0` after the last point"),
+        ("1,0,0\n", "name the file .csv"),
+    ] {
+        assert!(fault(text).contains(sentence), "{text}: {}", fault(text));
+    }
+}
+
+/// Line ends of old Macintoshes.
+#[test]
+fn carriage_returns() {
+    for format in FORMATS.into_iter().filter(|&f| !matches!(f, Format::Npy | Format::Ply)) {
+        let set =
+            PointSet3 { points: vec![Point3::new(0.0, 1.0, 2.0), Point3::new(3.0, 4.0, 5.0)], ..PointSet3::default() };
+        let text = String::from_utf8(write_points3(&set, format).unwrap()).unwrap();
+        for end in ["\r", "\r\n"] {
+            let read = read_points3(format, text.replace('\n', end).as_bytes(), None).unwrap().unwrap();
+            assert_eq!((read.set.points, read.notes.len()), (set.points.clone(), 0), "{format:?} {end:?}");
+        }
+    }
 }
 
 #[test]
@@ -274,6 +321,22 @@ fn npy_layouts() {
     );
 }
 
+/// Integers that no double holds are counted; those beyond 2^53 that are doubles are not.
+#[test]
+fn npy_integers() {
+    let header = |kind: &str| format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': (2, 3), }}");
+    let rounded = |kind: &str, numbers: [u64; 6]| {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes()).collect();
+        notes(&parse_npy(&npy(&header(kind), &bytes), None).unwrap()).join("")
+    };
+    let two = 1u64 << 53;
+    assert_eq!(rounded("<i8", [0, 1, two, two + 2, (-(two as i64)) as u64, 1 << 63]), "");
+    assert_eq!(rounded("<u8", [0, 1, two, two + 2, 1 << 63, 3 << 62]), "");
+    let note = |n: &str| format!("of {n} beyond 2^53 that no double holds, the nearest doubles are taken");
+    assert_eq!(rounded("<i8", [0, two + 1, 5, (-(two as i64) - 1) as u64, i64::MAX as u64, 0]), note("3 integers"));
+    assert_eq!(rounded("<u8", [0, 0, 0, 0, 0, u64::MAX]), note("1 integer"));
+}
+
 const PLY: &str = "ply\nformat ascii 1.0\ncomment c\nelement extra 2\nproperty list uchar int a\nproperty float b\nelement vertex 2\n\
     property list uint8 float skipped\nproperty double x\nproperty float y\nproperty float z\nproperty uchar radius\nelement face 1\n\
     property list uchar int vertex_indices\nend_header\n2 7 8 1.5\n0 1\n1 9 1 2 3 4\n0 5 6 7 8\n3 0 1 0\n";
@@ -339,14 +402,23 @@ fn ply() {
     );
 }
 
+/// A byte order mark, and coordinates in capitals; where both are there, the small letters are meant.
+#[test]
+fn ply_habits() {
+    let text = "\u{feff}ply\nformat ascii 1.0\nelement vertex 1\nproperty float X\nproperty float Y\nproperty float Z\nend_header\n1 2 3\n";
+    assert_eq!(points(&parse_ply(text.as_bytes(), None).unwrap()), [[1., 2., 3.]]);
+    let both = text.replace("float Z\n", "float Z\nproperty float x\n").replace("1 2 3", "1 2 3 4");
+    assert_eq!(points(&parse_ply(both.as_bytes(), None).unwrap()), [[4., 2., 3.]]);
+}
+
 #[test]
 fn node_and_off() {
     let node = "# c\n2 3 2 1\n0 1 2 3 0.5 2 7\n1 4 5 6 0.25 3 -8\n";
     let read = parse_node3(node.as_bytes(), None).unwrap();
     assert_eq!((points(&read), &read.set.point_markers[..]), (vec![[1., 2., 3.], [4., 5., 6.]], &[7, -8][..]));
-    assert_eq!(notes(&read), ["2 attributes are left out"]);
+    assert_eq!(notes(&read), ["columns 5, 6, attributes, are left out (--weights and --radii take a column)"]);
     let read = parse_node3(node.as_bytes(), Some(&radius("6"))).unwrap();
-    assert_eq!((&read.set.weights[..], notes(&read)), (&[4., 9.][..], vec!["1 attribute is left out"]));
+    assert_eq!((&read.set.weights[..], notes(&read)), (&[4., 9.][..], vec!["column 5, an attribute, is left out"]));
     survives(|b| parse_node3(b, Some(&weight("5"))), node.as_bytes());
     refuses(
         |b| parse_node3(b, Some(&weight("5"))),

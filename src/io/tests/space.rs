@@ -177,6 +177,41 @@ fn second_order() {
     assert!(matches!(read_any_mesh(Format::Msh, msh.as_bytes(), None, alone), Some(Ok(AnyMesh::Space(_)))));
 }
 
+/// TetGen's files under -o2: triangles with three nodes unless -p is given, markers and tetrahedra beside them or not, and twice the number of edges in the header.
+#[test]
+fn tetgen_of_second_order() {
+    let node: String = (1..=10).map(|i| format!("{i} {i} {} {}\n", i * i, i * i * i)).collect();
+    let node = format!("10 3 0 0\n{node}");
+    let ele: &[u8] = b"1 10 0\n1 1 2 3 4 5 6 7 8 9 10\n";
+    let read = |face: &str, edge: &str| {
+        let files = TetgenFiles {
+            node: node.as_bytes(),
+            ele: Some(ele),
+            face: Some(face.as_bytes()),
+            edge: Some(edge.as_bytes()),
+        };
+        parse_tetgen(files, None)
+    };
+    for face in [
+        "1 0\n1 1 2 3\n",
+        "1 1\n1 1 2 3 9\n",
+        "1 0\n1 1 2 3 1 -1\n",
+        "1 1\n1 1 2 3 9 1 -1\n",
+        "1 0\n1 1 2 3 5 6 7\n",
+        "1 1\n1 1 2 3 5 6 7 9\n",
+        "1 1\n1 1 2 3 5 6 7 9 1 -1\n",
+    ] {
+        for edge in ["1 0\n1 1 2 7\n", "2 1\n1 1 2 7 3\n"] {
+            let mesh = read(face, edge).unwrap();
+            assert_eq!((mesh.points.len(), mesh.triangles.len(), mesh.edges.len()), (4, 1, 1), "{face}{edge}");
+            assert_eq!(mesh.triangles[0].marker, if face.starts_with("1 1") { 9 } else { 0 }, "{face}");
+            assert_eq!(mesh.edges[0].marker, if edge.starts_with("2 1") { 3 } else { 0 }, "{edge}");
+        }
+    }
+    // Half of the rows and no more may be missing.
+    assert!(read("0 0\n", "4 1\n1 1 2 7 3\n").is_err() && read("2 0\n1 1 2 3\n", "0 0\n").is_err());
+}
+
 /// A mesh without tetrahedra is planar, in the formats that hold both.
 #[test]
 fn the_file_tells_the_dimension() {
@@ -257,11 +292,11 @@ fn bad_meshes() {
             ),
             (
                 vtk("CELLS 1 5\n4 0 0 0 7\nCELL_TYPES 1\n10\n").as_bytes(),
-                ".vtk line 8: cell 0: there is no vertex 7.0; vertices are numbered from 0",
+                ".vtk line 8: cell 0: there is no vertex 7; vertices are numbered from 0",
             ),
             (
                 vtk("CELLS 1 9\n8 0 0 0 0 0 0 0 0\nCELL_TYPES 1\n12\n").as_bytes(),
-                ".vtk line 8: cell 0: its type is 12 and it has 8 corners; only vertices (1), lines (3), triangles (5) and tetrahedra (10) are read here, \
+                ".vtk line 8: cell 0: it is a hexahedron; only vertices (1), lines (3), triangles (5) and tetrahedra (10) are read here, \
                  and lines (21), triangles (22) and tetrahedra (24) of second order",
             ),
             (
@@ -442,7 +477,7 @@ fn binary_msh_is_read() {
         &[
             (
                 &hexahedra,
-                ".msh: element 2: the type of the element is 5; only points (15), lines (1, 8), triangles (2, 9) and tetrahedra (4, 11) are read here",
+                ".msh: element 2: it is a hexahedron; only points (15), lines (1, 8), triangles (2, 9) and tetrahedra (4, 11) are read here",
             ),
             (
                 &more,
