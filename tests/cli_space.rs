@@ -212,7 +212,14 @@ fn mutations_of_a_mesh_are_refused() {
     let mut copy = fields(9);
     copy[0] = (cells.len() + usize::from(fields(0)[0] == "1")).to_string();
     doubled.push(copy.join(" "));
-    let w = violated(&check("doubled", &doubled, 1), "valid");
+    let said = check("doubled", &doubled, 1);
+    let w = violated(&said, "valid");
+    // What is unchecked says why.
+    let open = said["claims"].as_array().unwrap().iter().filter(|c| c["verdict"] == "unchecked");
+    assert!(
+        open.clone().count() > 0 && open.clone().all(|c| c["message"].as_str().unwrap().contains("complex")),
+        "{said}"
+    );
     assert_eq!(w["cells"], serde_json::json!([9, cells.len()]));
     let mut missing: Vec<String> = cells.to_vec();
     missing.pop();

@@ -32,8 +32,9 @@ pub(super) fn hull(complex: &Complex<'_>, border: Option<&Border<'_>>, isolated:
     let Some(border) = border else {
         if report.verdict == Verdict::Holds {
             report.verdict = Verdict::Unchecked;
+            report.message = "the mesh is not known to be a valid complex".into();
         }
-        return report.conclude("not tested");
+        return report.conclude("");
     };
     let mut shown = false;
     for edge in border.reflex() {

@@ -277,7 +277,7 @@ fn bad_vtu() {
         ".vtu line 96: vertex 1: z is 1.0, but 0.0 before; only planar meshes are read here",
     );
     with("\n0 1 3\n", "\n0 1 6\n", ".vtu line 105: cell 0: there is no vertex 6; vertices are numbered from 0");
-    with("\n0 1 3\n", "\n0 -1 3\n", ".vtu line 105: cell 0: there is no vertex -1.0; vertices are numbered from 0");
+    with("\n0 1 3\n", "\n0 -1 3\n", ".vtu line 105: cell 0: there is no vertex -1; vertices are numbered from 0");
     with(
         "Name=\"offsets\"",
         "Name=\"ofsets\"",
