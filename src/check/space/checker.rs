@@ -7,8 +7,8 @@ use super::replay::Replay;
 use crate::check::checker::Options;
 use crate::check::scale::power_of_two;
 use crate::check::verdict::{Checked, Place, Rejection, Rule, broken, ensure, placed};
-use crate::model::{Triangulation3, WeightedPoint};
-use crate::trace::{Event3, Record3, apex_id, triangulation_digest};
+use crate::model::{Tetrahedron, Triangulation3, VertexId, WeightedPoint};
+use crate::trace::{Apex, End3, Event3, Header3, Record3, apex_id, triangulation_digest};
 
 /// Takes a trace of space record by record. Memory: the complex.
 #[derive(Clone, Debug)]
@@ -87,129 +87,134 @@ impl Checker3 {
 
     fn take(&mut self, record: &Record3) -> Checked {
         match record {
-            Record3::Header(header) => {
-                self.at(Stage::Fresh, Stage::Fresh)?;
-                ensure(header.scale.abs() <= 870, Rule::Header, || {
-                    ("a scale within 2^-870..2^870", format!("{}", header.scale))
-                })?;
-                (self.scale, self.permuted) = (header.scale, header.permuted);
-                self.replay.weighted = header.weighted;
-                self.stage = Stage::Domain;
-                Ok(())
-            }
-            Record3::Vertex { point, input } => {
-                self.at(Stage::Domain, Stage::Events)?;
-                if self.stage == Stage::Events {
-                    self.replay.check_settled()?;
-                }
-                let sane = input.is_some() == self.permuted && (self.replay.weighted || point.weight == 0.0);
-                ensure(sane, Rule::Header, || {
-                    ("weights and places in the input as the header says", format!("{point:?}"))
-                })?;
-                ensure(self.replay.points.len() < i32::MAX as usize - 4, Rule::Domain, || {
-                    ("fewer than 2^31 points", "more")
-                })?;
-                let scaled = self.scaled(*point)?;
-                self.inputs.extend(*input);
-                self.replay.add_point(scaled);
-                Ok(())
-            }
-            Record3::Weight { id, weight } => {
-                self.at(Stage::Events, Stage::Events)?;
-                self.replay.check_settled()?;
-                ensure(self.replay.weighted, Rule::Header, || ("weights as the header says", "a weight"))?;
-                let known = id.index() < self.replay.points.len();
-                ensure(known, Rule::Domain, || ("a point of the trace", format!("{id:?}")))?;
-                let v = number(*id);
-                let mut point = self.unscaled(self.replay.mesh.point(v));
-                point.weight = *weight;
-                self.replay.reweigh(v, self.scaled(point)?.weight);
-                Ok(())
-            }
-            Record3::Remove { id } => {
-                self.at(Stage::Events, Stage::Events)?;
-                self.replay.check_settled()?;
-                let known = id.index() < self.replay.points.len();
-                ensure(known, Rule::Domain, || ("a point of the trace", format!("{id:?}")))?;
-                self.replay.pending = Some((number(*id), None));
-                Ok(())
-            }
-            Record3::Start { apexes, simplices } => {
-                self.at(Stage::Domain, Stage::Domain)?;
-                self.stage = Stage::Start;
-                let sane = if *simplices == 0 { apexes.is_empty() } else { apexes.len() <= 3 };
-                ensure(sane, Rule::Dimension, || {
-                    ("at most three apexes, and none without simplices", format!("{}", apexes.len()))
-                })?;
-                self.apexes.clone_from(apexes);
-                self.replay.set_apexes(apexes);
-                self.simplices_left = *simplices;
-                if *simplices == 0 {
-                    self.stage = Stage::Events;
-                }
-                Ok(())
-            }
-            Record3::Simplex(t) => {
-                self.at(Stage::Start, Stage::Start)?;
-                let own = &t[..4 - self.apexes.len()];
-                let canonical = match own {
-                    [a, b, c, d] => a < b && b < c.min(d) && c != d,
-                    own => own.is_sorted_by(|a, b| a < b),
-                };
-                let filled = t[own.len()..].iter().zip(0..).all(|(v, k)| *v == apex_id(k))
-                    && own.iter().all(|v| v.index() < self.replay.points.len());
-                ensure(canonical && filled && self.last.is_none_or(|l| l < *t), Rule::Canonical, || {
-                    ("canonical simplices, ascending", format!("{t:?}"))
-                })?;
-                self.last = Some(*t);
-                self.replay.add_simplex(*t)?;
-                self.simplices_left -= 1;
-                if self.simplices_left > 0 {
-                    return Ok(());
-                }
-                self.stage = Stage::Events;
-                self.replay.prove(&self.apexes)
-            }
-            Record3::Event(event) => {
-                self.at(Stage::Events, Stage::Events)?;
-                self.event(event)?;
-                self.events += 1;
-                Ok(())
-            }
-            Record3::End(end) => {
-                self.at(Stage::Events, Stage::Events)?;
-                self.stage = Stage::Ended;
-                self.replay.check_settled()?;
-                claims::check_points(&self.replay)?;
-                let own = claims::counts(&self.replay);
-                ensure(end.counts == own, Rule::Counts, || (format!("{own:?}"), format!("{:?}", end.counts)))?;
-                self.check_inputs()?;
-                if self.options.strict {
-                    let euler = if self.replay.is_empty() { 0 } else { euler_characteristic(&self.replay.mesh) };
-                    ensure(euler == 0, Rule::Euler, || ("0", format!("{euler}")))?;
-                }
-                if self.options.digests {
-                    let own = triangulation_digest(&self.triangulation());
-                    ensure(end.mesh == own, Rule::Digest, || (own.clone(), end.mesh.clone()))?;
-                }
-                Ok(())
-            }
+            Record3::Header(header) => self.header(header),
+            Record3::Vertex { point, input } => self.vertex(*point, *input),
+            Record3::Weight { id, weight } => self.weight(*id, *weight),
+            Record3::Remove { id } => self.remove(*id),
+            Record3::Start { apexes, simplices } => self.start(apexes, *simplices),
+            Record3::Simplex(t) => self.simplex(*t),
+            Record3::Event(event) => self.event(event),
+            Record3::End(end) => self.end(end),
         }
     }
 
-    /// An event. Ids beyond the points are refused here, so that numbers may be used as they are.
+    fn header(&mut self, header: &Header3) -> Checked {
+        self.at(Stage::Fresh, Stage::Fresh)?;
+        let in_range = header.scale.abs() <= 870;
+        ensure(in_range, Rule::Header, || ("a scale within 2^-870..2^870", format!("{}", header.scale)))?;
+        (self.scale, self.permuted) = (header.scale, header.permuted);
+        self.replay.weighted = header.weighted;
+        self.stage = Stage::Domain;
+        Ok(())
+    }
+
+    fn vertex(&mut self, point: WeightedPoint, input: Option<u32>) -> Checked {
+        self.at(Stage::Domain, Stage::Events)?;
+        if self.stage == Stage::Events {
+            self.replay.check_settled()?;
+        }
+        let sane = input.is_some() == self.permuted && (self.replay.weighted || point.weight == 0.0);
+        ensure(sane, Rule::Header, || ("weights and places in the input as the header says", format!("{point:?}")))?;
+        let few = self.replay.points.len() < i32::MAX as usize - 4;
+        ensure(few, Rule::Domain, || ("fewer than 2^31 points", "more"))?;
+        let scaled = self.scaled(point)?;
+        self.inputs.extend(input);
+        self.replay.add_point(scaled);
+        Ok(())
+    }
+
+    fn weight(&mut self, id: VertexId, weight: f64) -> Checked {
+        self.at(Stage::Events, Stage::Events)?;
+        self.replay.check_settled()?;
+        ensure(self.replay.weighted, Rule::Header, || ("weights as the header says", "a weight"))?;
+        self.check_known(id)?;
+        let v = number(id);
+        let point = WeightedPoint { weight, ..self.unscaled(self.replay.mesh.point(v)) };
+        self.replay.reweigh(v, self.scaled(point)?.weight);
+        Ok(())
+    }
+
+    fn remove(&mut self, id: VertexId) -> Checked {
+        self.at(Stage::Events, Stage::Events)?;
+        self.replay.check_settled()?;
+        self.check_known(id)?;
+        self.replay.pending = Some((number(id), None));
+        Ok(())
+    }
+
+    fn start(&mut self, apexes: &[Apex], simplices: u32) -> Checked {
+        self.at(Stage::Domain, Stage::Domain)?;
+        self.stage = if simplices == 0 { Stage::Events } else { Stage::Start };
+        let sane = if simplices == 0 { apexes.is_empty() } else { apexes.len() <= 3 };
+        ensure(sane, Rule::Dimension, || {
+            ("at most three apexes, and none without simplices", format!("{}", apexes.len()))
+        })?;
+        self.apexes = apexes.to_vec();
+        self.replay.set_apexes(apexes);
+        self.simplices_left = simplices;
+        Ok(())
+    }
+
+    fn simplex(&mut self, t: Tetrahedron) -> Checked {
+        self.at(Stage::Start, Stage::Start)?;
+        let own = &t[..4 - self.apexes.len()];
+        let canonical = match own {
+            [a, b, c, d] => a < b && b < c.min(d) && c != d,
+            own => own.is_sorted_by(|a, b| a < b),
+        };
+        let filled = t[own.len()..].iter().zip(0..).all(|(v, k)| *v == apex_id(k))
+            && own.iter().all(|v| v.index() < self.replay.points.len());
+        ensure(canonical && filled && self.last.is_none_or(|l| l < t), Rule::Canonical, || {
+            ("canonical simplices, ascending", format!("{t:?}"))
+        })?;
+        self.last = Some(t);
+        self.replay.add_simplex(t)?;
+        self.simplices_left -= 1;
+        if self.simplices_left > 0 {
+            return Ok(());
+        }
+        self.stage = Stage::Events;
+        self.replay.prove(&self.apexes)
+    }
+
+    fn end(&mut self, end: &End3) -> Checked {
+        self.at(Stage::Events, Stage::Events)?;
+        self.stage = Stage::Ended;
+        self.replay.check_settled()?;
+        claims::check_points(&self.replay)?;
+        let own = claims::counts(&self.replay);
+        ensure(end.counts == own, Rule::Counts, || (format!("{own:?}"), format!("{:?}", end.counts)))?;
+        self.check_inputs()?;
+        if self.options.strict {
+            let euler = if self.replay.is_empty() { 0 } else { euler_characteristic(&self.replay.mesh) };
+            ensure(euler == 0, Rule::Euler, || ("0", format!("{euler}")))?;
+        }
+        if self.options.digests {
+            let own = triangulation_digest(&self.triangulation());
+            ensure(end.mesh == own, Rule::Digest, || (own.clone(), end.mesh.clone()))?;
+        }
+        Ok(())
+    }
+
+    /// That an id is one of a point, so that its number may be used as it is.
+    fn check_known(&self, id: VertexId) -> Checked {
+        let known = id.index() < self.replay.points.len();
+        ensure(known, Rule::Domain, || ("a point of the trace", format!("{id:?}")))
+    }
+
     fn event(&mut self, event: &Event3) -> Checked {
+        self.at(Stage::Events, Stage::Events)?;
         let (id, other) = match event {
             Event3::Insert { id, .. } | Event3::Hide { id, .. } => (*id, *id),
             Event3::Duplicate { id, of } => (*id, *of),
             Event3::Succeed { id, by } => (*id, *by),
             Event3::Remove { id, .. } | Event3::Raise { id, .. } | Event3::Lower { id, .. } => (*id, *id),
         };
-        for v in [id, other] {
-            let known = v.index() < self.replay.points.len();
-            ensure(known, Rule::Domain, || ("a point of the trace", format!("{v:?}")))?;
-        }
-        self.replay.event(event)
+        self.check_known(id)?;
+        self.check_known(other)?;
+        self.replay.event(event)?;
+        self.events += 1;
+        Ok(())
     }
 
     /// Records stand in one order.
