@@ -101,16 +101,14 @@ impl<K: Kernel3> Regular3<K> {
         t
     }
 
-    /// Links mixed cells with the neighbors that the threads know; `None` if two threads contradict each other.
+    /// Links mixed cells with the neighbors that the threads know: pairs of a link and what is to be found there. `None` if two threads contradict each other.
     fn link_mixed<'a>(&mut self, known: impl Iterator<Item = &'a [u32; 2]>) -> Option<()> {
-        for &[one, other] in known {
-            for (from, to) in [(one, other), (other, one)] {
-                let link = &mut self.cells[(from >> 2) as usize].n[(from & 3) as usize];
-                if *link != NONE && *link != to {
-                    return None;
-                }
-                *link = to;
+        for &[from, to] in known {
+            let link = &mut self.cells[(from >> 2) as usize].n[(from & 3) as usize];
+            if *link != NONE && *link != to {
+                return None;
             }
+            *link = to;
         }
         Some(())
     }
@@ -227,7 +225,7 @@ fn mixed_of_all(pieces: &[Piece]) -> Vec<[u32; 4]> {
     all
 }
 
-/// For each piece what it knows of the neighbors of mixed cells, as pairs of links. Mixed cells have the slots from `first_mixed` on.
+/// For each piece what it knows of the neighbors of mixed cells, for `link_mixed`. Mixed cells have the slots from `first_mixed` on.
 fn links_of_mixed(pieces: &[Piece], all: &[[u32; 4]], first_mixed: u32) -> Vec<Vec<[u32; 2]>> {
     let starts = pieces.iter().scan(0, |sum, p| Some(std::mem::replace(sum, *sum + p.cells.len() as u32)));
     let starts: Vec<u32> = starts.collect();
@@ -245,7 +243,8 @@ fn links_of_mixed(pieces: &[Piece], all: &[[u32; 4]], first_mixed: u32) -> Vec<V
             for (link, beyond) in (4 * slots[m.cell as usize]..).zip(piece.cells[m.cell as usize].n) {
                 let (cell, corner) = (beyond >> 2, beyond & 3);
                 if piece.kinds[cell as usize] == INNER {
-                    known.push([link, 4 * (cell + start) + corner]);
+                    let inner = 4 * (cell + start) + corner;
+                    known.extend([[link, inner], [inner, link]]);
                 } else if slots[cell as usize] != 0 {
                     known.push([link, 4 * slots[cell as usize] + corner]);
                 }
