@@ -163,6 +163,7 @@ fn wrong_usage_in_space() {
         "triangulate q.node --weights 4",
         "triangulate q.node --steps",
         "triangulate none.xyz",
+        "triangulate p.xyz -o none/x.vtu",
         "convert p.xyz p.vtu",
         "check p.xyz",
     ] {

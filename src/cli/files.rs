@@ -3,7 +3,7 @@
 use super::Failure;
 use crate::io::{self, AnyMesh, Column, Format};
 use std::fs::{self, File, OpenOptions};
-use std::io::{BufReader, BufWriter, Write};
+use std::io::{BufReader, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The bytes of a file.
@@ -61,7 +61,10 @@ impl Staged {
         hidden.push(name);
         hidden.push(format!(".{}", std::process::id()));
         let present = path.with_file_name(hidden);
-        let file = OpenOptions::new().write(true).create_new(true).open(&present).map_err(|e| Failure::at(path, e))?;
+        let file = OpenOptions::new().write(true).create_new(true).open(&present).map_err(|e| match e.kind() {
+            ErrorKind::NotFound => Failure::at(path, "its folder does not exist; make it first"),
+            _ => Failure::at(path, e),
+        })?;
         self.files.push((path.to_path_buf(), present));
         Ok(BufWriter::with_capacity(1 << 16, file))
     }
