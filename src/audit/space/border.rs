@@ -55,9 +55,8 @@ pub(super) struct Border<'a> {
 }
 
 impl<'a> Border<'a> {
-    /// Finds and examines the border of a complex that is valid as far as it is local.
-    pub fn examine(complex: &'a Complex<'a>, valid: &mut ClaimReport) -> Self {
-        let slots: Vec<u32> = complex.border().collect();
+    /// Examines the border, of these slots, of a complex that is valid as far as it is local.
+    pub fn examine(complex: &'a Complex<'a>, slots: Vec<u32>, valid: &mut ClaimReport) -> Self {
         let facets: Vec<[u32; 3]> = slots.iter().map(|&s| complex.facet(s)).collect();
         let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * facets.len());
         for (f, facet) in (0u32..).zip(&facets) {

@@ -3,7 +3,7 @@
 use super::Subject;
 use super::report::{Claim, ClaimReport};
 use crate::audit::report::Verdict;
-use crate::check::space::glue::{self, BORDER, MOST_CELLS, MOST_VERTICES};
+use crate::check::space::glue::{self, Fan, Fringe, MOST_CELLS, MOST_VERTICES};
 use crate::check::space::predicates::{Corners, orient};
 use crate::model::{Point3, Sign, VertexId, WeightedPoint};
 
@@ -17,12 +17,12 @@ pub(super) enum Orientations {
 }
 
 /// Cells whose corners are fetched together, since memory answers many questions in the time of one.
-pub(super) const BATCH: usize = 16;
+const BATCH: usize = 16;
 
 /// Most cells: twelve numbers for each, one for every edge of every facet, must fit 32 bits.
 const MOST: usize = MOST_CELLS / 3;
 
-/// The usable cells of a mesh and their links. A slot is `4 t + k`: the facet of cell t across from corner k.
+/// The usable cells of a mesh. A slot is `4 t + k`: the facet of cell t across from corner k.
 pub(super) struct Complex<'a> {
     pub subject: &'a Subject<'a>,
     /// The points, scaled by a power of two so that neither a coordinate nor a weight exceeds 1. Those that are not finite are at 0.
@@ -33,8 +33,6 @@ pub(super) struct Complex<'a> {
     pub in_file: Vec<u32>,
     /// Positions in the file of cells that are negative there.
     pub negative: Vec<u32>,
-    /// The corner on the other side of each slot, or `BORDER`.
-    pub far: Vec<u32>,
     /// Whether all points are finite.
     all_finite: bool,
     /// A scaled coordinate of 1 stands for 2 to this power.
@@ -44,8 +42,8 @@ pub(super) struct Complex<'a> {
 }
 
 impl<'a> Complex<'a> {
-    /// Builds it, and answers the local part of `valid`; without links, only what single cells say.
-    pub fn new(subject: &'a Subject<'a>, linked: bool, orientations: Orientations) -> (Self, ClaimReport) {
+    /// Builds it, and answers what single cells say of `valid`.
+    pub fn new(subject: &'a Subject<'a>, orientations: Orientations) -> (Self, ClaimReport) {
         let mut report = ClaimReport::new(Claim::Valid);
         let (sites, exponent, unscalable) = scaled(subject);
         let mut complex = Complex {
@@ -55,7 +53,6 @@ impl<'a> Complex<'a> {
             cells: Vec::with_capacity(subject.cells.len()),
             in_file: Vec::with_capacity(subject.cells.len()),
             negative: Vec::new(),
-            far: Vec::new(),
             exponent,
             unscalable,
         };
@@ -68,9 +65,6 @@ impl<'a> Complex<'a> {
         let mut places = Vec::new();
         for (k, batch) in (0u32..).zip(subject.cells.chunks(BATCH)) {
             complex.take(BATCH as u32 * k, batch, orientations, &mut places, &mut report);
-        }
-        if linked {
-            complex.link(&mut report);
         }
         if complex.cells.is_empty() && report.verdict == Verdict::Holds {
             report = ClaimReport::unchecked(Claim::Valid, "there is no cell");
@@ -107,11 +101,6 @@ impl<'a> Complex<'a> {
     /// The corner across from a facet, in its cell.
     pub fn apex(&self, slot: u32) -> u32 {
         self.cells[(slot / 4) as usize][(slot % 4) as usize]
-    }
-
-    /// The slots on the border.
-    pub fn border(&self) -> impl Iterator<Item = u32> + '_ {
-        (0u32..).zip(&self.far).filter(|s| *s.1 == BORDER).map(|s| s.0)
     }
 
     /// The cell of a slot, as the file counts.
@@ -172,11 +161,10 @@ impl<'a> Complex<'a> {
         self.in_file.push(i);
     }
 
-    /// Links cells across their facets. Both cells at a facet must lie on different sides of it.
-    fn link(&mut self, report: &mut ClaimReport) {
-        let (far, clashes) = glue::far_corners(&self.cells, self.sites.len());
-        self.far = far;
-        for slots in clashes {
+    /// Links cells across their facets, whose fans it shows: both cells at a facet must lie on different sides of it.
+    pub fn link(&self, report: &mut ClaimReport, see: impl FnMut(&Fan)) -> Fringe {
+        let mut fringe = glue::visit(&self.cells, self.sites.len(), see);
+        for slots in std::mem::take(&mut fringe.clashes) {
             let mut apart = slots.clone();
             apart.sort_by_key(|&s| (self.apex(s), self.in_file[(s / 4) as usize]));
             for same in apart.chunk_by(|&s, &t| self.apex(s) == self.apex(t)).filter(|same| same.len() > 1) {
@@ -200,6 +188,7 @@ impl<'a> Complex<'a> {
                 n => format!("facet {a}, {b}, {c} belongs to {n} cells: {cells:?}"),
             });
         }
+        fringe
     }
 
     /// Whether a facet, from its smallest corner on, turns to the larger of the others last.

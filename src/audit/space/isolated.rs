@@ -21,12 +21,15 @@ pub(super) struct Isolated {
 }
 
 impl Isolated {
-    /// Finds them. Time: linear where there are none; else a search for each cell among them by bounding boxes.
-    pub fn of(complex: &Complex<'_>) -> Self {
-        let mut used = vec![false; complex.sites.len()];
-        for v in complex.subject.cells.iter().flatten() {
-            if let Some(used) = used.get_mut(v.index()) {
-                *used = true;
+    /// Finds them, given which vertices proper cells have. Time: linear where there are none; else a search for each cell among them by bounding boxes.
+    pub fn of(complex: &Complex<'_>, mut used: Vec<bool>) -> Self {
+        // What is in cells that are not proper is not alone.
+        if complex.cells.len() < complex.subject.cells.len() {
+            used.resize(complex.sites.len(), false);
+            for v in complex.subject.cells.iter().flatten() {
+                if let Some(used) = used.get_mut(v.index()) {
+                    *used = true;
+                }
             }
         }
         let alone = (0u32..).zip(&used).filter(|v| !v.1).map(|v| v.0);

@@ -38,10 +38,12 @@ mod tests;
 pub use report::{Claim, ClaimReport, Report, Witness};
 
 use super::report::Verdict;
+use crate::check::space::glue::Fringe;
 use crate::model::{Point3, VertexId};
 use border::Border;
 use complex::{Complex, Orientations};
 use isolated::Isolated;
+use spheres::Spheres;
 
 /// A mesh to be audited, as found in a file. Indices may be wrong, numbers not finite.
 #[derive(Clone, Debug, Default)]
@@ -76,7 +78,7 @@ impl Default for Options<'_> {
 /// Audits a mesh.
 pub fn audit(subject: &Subject<'_>, options: &Options<'_>) -> Report {
     // Where spheres are tested, orientations come with them; that all are positive, as nearly always, is taken for granted until then.
-    let granted = options.claims.iter().any(|c| spheres::is_about_spheres(*c));
+    let granted = options.claims.iter().any(|c| Spheres::is_about(*c));
     let report = granted.then(|| audit_taking(subject, options, Orientations::Granted)).flatten();
     // Tested orientations are never found wrong later.
     report.or_else(|| audit_taking(subject, options, Orientations::Tested)).unwrap_or(Report { claims: Vec::new() })
@@ -87,13 +89,21 @@ fn audit_taking(subject: &Subject<'_>, options: &Options<'_>, orientations: Orie
     let asked = |claims: &[Claim]| claims.iter().any(|c| options.claims.contains(c));
     // These two ask of single cells.
     let linked = options.claims.iter().any(|c| !matches!(c, Claim::Orientation | Claim::Quality));
-    let (complex, mut valid) = Complex::new(subject, linked, orientations);
+    let (complex, mut valid) = Complex::new(subject, orientations);
+    let mut spheres: Vec<Spheres<'_>> = options.claims.iter().filter_map(|&c| Spheres::new(&complex, c)).collect();
+    let fringe = if linked {
+        complex.link(&mut valid, |fan| spheres.iter_mut().for_each(|s| s.see(fan)))
+    } else {
+        Fringe::default()
+    };
     // On a complex with faults the border means nothing.
-    let border = (valid.verdict == Verdict::Holds && linked).then(|| Border::examine(&complex, &mut valid));
+    let border =
+        (linked && valid.verdict == Verdict::Holds).then(|| Border::examine(&complex, fringe.border, &mut valid));
+    let mut spheres = spheres.into_iter();
     let sound = valid.verdict == Verdict::Holds;
     let valid = valid.conclude("any two cells meet in a common vertex, edge or facet, or not at all");
     let isolated = if asked(&[Claim::Delaunay, Claim::Regular, Claim::Canonical, Claim::Hull]) {
-        Isolated::of(&complex)
+        Isolated::of(&complex, fringe.is_used)
     } else {
         Isolated::default()
     };
@@ -103,7 +113,8 @@ fn audit_taking(subject: &Subject<'_>, options: &Options<'_>, orientations: Orie
         let mut report = match claim {
             Claim::Valid => valid.clone(),
             Claim::Orientation => complex::orientation(&complex),
-            Claim::Delaunay | Claim::Regular | Claim::Canonical => spheres::empty(&complex, claim, border, &isolated)?,
+            // They stand in the order of the claims.
+            Claim::Delaunay | Claim::Regular | Claim::Canonical => spheres.next()?.empty(border, &isolated)?,
             Claim::Hull => hull::hull(&complex, border, &isolated),
             Claim::Quality => figures::quality(&complex, options.radius_edge),
             Claim::Topology => figures::topology(&complex, border),

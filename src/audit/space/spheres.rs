@@ -7,67 +7,140 @@
 //!
 //! So in a convex region the tests across facets suffice; elsewhere the vertices in the sphere of each cell at the border are looked up. Ties: with the lifts
 //! raised by infinitesimals the same holds.
+//!
+//! Facets are tested fan by fan, as they are matched: all with one smallest vertex, from which their corners are seen.
 
 use super::border::{Border, budget};
-use super::complex::{BATCH, Complex};
+use super::complex::Complex;
 use super::isolated::Isolated;
 use super::report::{Claim, ClaimReport};
 use crate::audit::report::Verdict;
 use crate::audit::tree::Tree;
 use crate::check::scalar::{Bounded, Scalar};
-use crate::check::space::ball::{Ball as Orthoball, Row, near_side};
-use crate::check::space::glue::BORDER;
+use crate::check::space::ball::{Ball as Orthoball, Row};
+use crate::check::space::glue::{BORDER, Fan};
 use crate::check::space::predicates::{Corners, orient, side, tie_in_conflict};
 use crate::model::{Point3, Sign, WeightedPoint};
 use std::borrow::Cow;
 
-/// Whether a claim is one of the three.
-pub(super) fn is_about_spheres(claim: Claim) -> bool {
-    matches!(claim, Claim::Delaunay | Claim::Regular | Claim::Canonical)
-}
-
-/// One of the three claims of empty spheres; nothing if a cell is not positive.
-pub(super) fn empty(
-    complex: &Complex<'_>,
-    claim: Claim,
-    border: Option<&Border<'_>>,
-    isolated: &Isolated,
-) -> Option<ClaimReport> {
-    let spheres = Spheres::new(complex, claim);
-    let mut report = ClaimReport::new(claim);
-    if !spheres.across_facets(&mut report) {
-        return None;
-    }
-    // Without a border the mesh is no complex, and one conflict is as good as another.
-    if let Some(border) = border.filter(|b| !b.is_convex && report.verdict == Verdict::Holds)
-        && !spheres.beyond_border(border, &mut report)
-    {
-        return Some(ClaimReport::unchecked(claim, "too many vertices are close to the spheres at the border"));
-    }
-    spheres.left_out(isolated, &mut report);
-    Some(report.conclude(match claim {
-        Claim::Delaunay => "no vertex inside a circumsphere",
-        Claim::Regular => "no vertex inside an orthosphere",
-        _ => "no conflict under the one tie-break",
-    }))
-}
-
-struct Spheres<'a> {
+/// One of the three claims, under test.
+pub(super) struct Spheres<'a> {
     complex: &'a Complex<'a>,
     claim: Claim,
     /// The points, for `Delaunay` without their weights.
     sites: Cow<'a, [WeightedPoint]>,
+    /// Whether the cells seen are positive.
+    all_positive: bool,
+    /// Cells and vertices in conflict, across a facet.
+    found: Vec<(u32, u32)>,
+    /// The corners of a fan, facet by facet, as seen from its vertex.
+    rows: Vec<Row>,
+    /// The orthoballs of its first cells.
+    balls: Vec<Orthoball>,
+    /// Pairs of facets for which doubles do not show that there is no conflict.
+    near: Vec<[u32; 2]>,
 }
 
 impl<'a> Spheres<'a> {
-    fn new(complex: &'a Complex<'a>, claim: Claim) -> Self {
+    /// Whether a claim is one of the three.
+    pub fn is_about(claim: Claim) -> bool {
+        matches!(claim, Claim::Delaunay | Claim::Regular | Claim::Canonical)
+    }
+
+    /// The test of a claim, if it is one of the three; all fans are to be shown to it.
+    pub fn new(complex: &'a Complex<'a>, claim: Claim) -> Option<Self> {
+        if !Self::is_about(claim) {
+            return None;
+        }
         let weighted = claim != Claim::Delaunay || complex.sites.iter().all(|p| p.weight == 0.0);
         let sites = if weighted {
             Cow::Borrowed(&complex.sites[..])
         } else {
             complex.sites.iter().map(|p| WeightedPoint::unweighted(p.at)).collect()
         };
-        Spheres { complex, claim, sites }
+        let (found, rows, balls, near) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Some(Spheres { complex, claim, sites, all_positive: true, found, rows, balls, near })
+    }
+
+    /// The report; nothing if a cell is not positive.
+    pub fn empty(mut self, border: Option<&Border<'_>>, isolated: &Isolated) -> Option<ClaimReport> {
+        let mut report = ClaimReport::new(self.claim);
+        self.found.sort_unstable();
+        for &(t, v) in &self.found {
+            self.witness(t, v, &mut report);
+        }
+        if !self.all_positive {
+            return None;
+        }
+        // Without a border the mesh is no complex, and one conflict is as good as another.
+        if let Some(border) = border.filter(|b| !b.is_convex && report.verdict == Verdict::Holds)
+            && !self.beyond_border(border, &mut report)
+        {
+            return Some(ClaimReport::unchecked(
+                self.claim,
+                "too many vertices are close to the spheres at the border",
+            ));
+        }
+        self.left_out(isolated, &mut report);
+        Some(report.conclude(match self.claim {
+            Claim::Delaunay => "no vertex inside a circumsphere",
+            Claim::Regular => "no vertex inside an orthosphere",
+            _ => "no conflict under the one tie-break",
+        }))
+    }
+
+    /// Tests the first cells of a fan for orientation, and each pair of its facets for conflict, which is mutual: the cell of one against the corner
+    /// across from the other. A cell is among the first ones of one fan.
+    pub fn see(&mut self, fan: &Fan) {
+        let Spheres { sites, rows, balls, near, .. } = self;
+        let base = sites[fan.a as usize];
+        rows.clear();
+        rows.extend(fan.corners.iter().map(|&v| Row::new(base, sites[v as usize])));
+        balls.clear();
+        // With a, p, q, r positive so is q, p, r, a.
+        balls.extend(rows.as_chunks().0[..fan.first.len()].iter().map(|[p, q, r]| Orthoball::new(q, p, r)));
+        let are_positive = balls.iter().all(|ball| ball.orientation() == Some(Sign::Positive));
+        near.clear();
+        for &[f, g] in &fan.pairs {
+            let from_second;
+            let ball = match balls.get(f as usize / 3) {
+                Some(ball) => ball,
+                None => {
+                    let corners = fan.corners_of(f).map(|v| Row::new(base, sites[v as usize]));
+                    let [_, p, q, r] = corners;
+                    from_second = Orthoball::new(&q, &p, &r);
+                    &from_second
+                }
+            };
+            if ball.side(&rows[g as usize]) != Some(Sign::Negative) {
+                near.push([f, g]);
+            }
+        }
+        if !are_positive || !self.near.is_empty() {
+            self.look_closer(fan, are_positive);
+        }
+    }
+
+    /// Decides what doubles did not.
+    #[cold]
+    fn look_closer(&mut self, fan: &Fan, are_positive: bool) {
+        if !are_positive {
+            self.all_positive &= fan.first.iter().all(|(_, cell)| {
+                let [a, b, c, d] = cell.map(|v| self.complex.at(v));
+                orient(a, b, c, d) == Sign::Positive
+            });
+        }
+        // What is not positive has no sphere.
+        if !self.all_positive {
+            return;
+        }
+        for &[f, g] in &self.near {
+            let (t, v) = (fan.slots[f as usize] / 4, fan.corners[g as usize]);
+            let (corners, q) = (self.corners(t), &self.sites[v as usize]);
+            if self.conflicts(side(&corners, q), &corners, q) {
+                self.found.push((t, v));
+            }
+        }
     }
 
     fn corners(&self, t: u32) -> Corners {
@@ -81,44 +154,6 @@ impl<'a> Spheres<'a> {
             Sign::Negative => false,
             Sign::Zero => self.claim == Claim::Canonical && tie_in_conflict(t, q),
         }
-    }
-
-    /// Each cell against the far corners of its neighbors, each pair once: conflict is mutual. False if a cell is not positive.
-    fn across_facets(&self, report: &mut ClaimReport) -> bool {
-        let Complex { cells, far, .. } = self.complex;
-        let far = far.as_chunks::<4>().0;
-        let (mut corners, mut asked): (Vec<Corners>, Vec<(u32, u32, WeightedPoint)>) = (Vec::new(), Vec::new());
-        for (k, (cells, far)) in (0u32..).zip(cells.chunks(BATCH).zip(far.chunks(BATCH))) {
-            corners.clear();
-            corners.extend(cells.iter().map(|cell| cell.map(|v| self.sites[v as usize])));
-            asked.clear();
-            for (i, (cell, far)) in (0..).zip(cells.iter().zip(far)) {
-                // Of two far corners that see each other, the smaller asks.
-                let asks = cell.iter().zip(far).filter(|&(v, w)| *w != BORDER && v < w);
-                asked.extend(asks.map(|(_, &w)| (i, w, self.sites[w as usize])));
-            }
-            let mut asked = &asked[..];
-            for (i, t) in (0..).zip(&corners) {
-                let [u, v, w] = [0, 1, 2].map(|k: usize| Row::new(t[3], t[k]));
-                let ball = Orthoball::new(&u, &v, &w);
-                let places = t.map(|p| p.at);
-                let orientation =
-                    ball.orientation().unwrap_or_else(|| orient(places[0], places[1], places[2], places[3]));
-                if orientation != Sign::Positive {
-                    return false;
-                }
-                while let Some(((j, v, q), rest)) = asked.split_first()
-                    && *j == i
-                {
-                    asked = rest;
-                    let side = ball.side(&Row::new(t[3], *q)).unwrap_or_else(|| near_side(&ball, t, q));
-                    if side != Sign::Negative && self.conflicts(side, t, q) {
-                        self.witness(BATCH as u32 * k + i, *v, report);
-                    }
-                }
-            }
-        }
-        true
     }
 
     /// The cells at the border against vertices beyond it; of each cell, one vertex is told. False if there are too many to be looked at.

@@ -555,3 +555,27 @@ fn many_parts_are_examined() {
         assert_eq!(run(&p, &cells, Claim::Valid).verdict, Verdict::Violated, "axis {axis}");
     }
 }
+
+/// Whichever corner of a pair of cells is the smallest, one of them is tested against the far corner of the other.
+#[test]
+fn conflicts_are_seen_under_all_names() {
+    let mut names = vec![vec![0u32]];
+    for next in 1..5 {
+        let grown = |name: &Vec<u32>| {
+            (0..=next).map(|k| [&name[..k as usize], &[next], &name[k as usize..]].concat()).collect()
+        };
+        names = names.iter().flat_map(|name| -> Vec<Vec<u32>> { grown(name) }).collect();
+    }
+    assert_eq!(names.len(), 120);
+    for name in names {
+        for (height, verdict) in [(0.5, Verdict::Violated), (2.0, Verdict::Holds)] {
+            let by_place =
+                [[0.0, 0.0, height], [0.0, 0.0, -height], [1.0, 0.0, 0.0], [-0.5, 0.75, 0.0], [-0.5, -0.75, 0.0]];
+            let mut points = vec![[0.0; 3]; 5];
+            name.iter().zip(by_place).for_each(|(&v, p)| points[v as usize] = p);
+            let cells = [[2, 3, 4, 0], [2, 4, 3, 1]].map(|cell| cell.map(|k: usize| name[k]));
+            let report = run(&points, &cells, Claim::Delaunay);
+            assert_eq!((report.verdict, report.violations), (verdict, u64::from(height < 1.0)), "{name:?} {report:?}");
+        }
+    }
+}

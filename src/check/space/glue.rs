@@ -2,8 +2,9 @@
 //!
 //! A facet is a slot, 4 t + k: that of cell t across from its corner k. Cells are positively oriented, so that two of them on different sides of
 //! a facet see it turn in different directions. A bucket holds the facets of one smallest vertex a, as many as there are triangles around it, each as the
-//! edge b, c such that a, b, c turn counterclockwise as seen from the cell: what is across has the edge c, b. They are matched in a small table,
-//! or by sorting if the bucket is large. A cell has two entries in buckets: one for the three facets around its smallest corner, one for the fourth.
+//! edge b, c such that a, b, c turn counterclockwise as seen from the cell: what is across has the edge c, b. Its corners are numbered, and facets are matched in
+//! a table of pairs of numbers, or by sorting if there are many. A cell has two entries in buckets: one for the three facets around its smallest corner,
+//! one for the fourth.
 
 /// The slot across from a facet of the border.
 pub const BORDER: u32 = u32::MAX;
@@ -14,14 +15,14 @@ pub const FACETS: [[usize; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]]
 /// Most cells that slots can name.
 pub const MOST_CELLS: usize = (BORDER / 4) as usize;
 
-/// Most vertices: a place of a table has a bit beside two of them.
-pub const MOST_VERTICES: usize = (MARK >> 32) as usize;
+/// Most vertices.
+pub const MOST_VERTICES: usize = BORDER as usize;
 
-/// Buckets up to this size, real ones and more, are matched by a table, whose worst case is quadratic; larger ones by sorting.
-const SMALL: usize = 256;
+/// Corners of a bucket that are numbered: with more, and real ones have fewer, facets are matched by sorting.
+const NUMBERS: u32 = 64;
 
-/// Marks a facet in a table that is matched.
-const MARK: u64 = 1 << 63;
+/// Vertices whose cells are fetched together.
+const BLOCK: usize = 32;
 
 /// The links of a set of cells.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -41,30 +42,77 @@ pub fn facet(cells: &[[u32; 4]], slot: u32) -> [u32; 3] {
 
 /// Links positively oriented cells, each with four different corners below `vertices`. At most `MOST_CELLS`, and `MOST_VERTICES`.
 pub fn glue(cells: &[[u32; 4]], vertices: usize) -> Glue {
-    let (across, clashes) = matched(cells, vertices, |slot, _| slot);
-    Glue { across, clashes }
+    let mut across = vec![BORDER; 4 * cells.len()];
+    let fringe = visit(cells, vertices, |fan| {
+        for &[f, g] in &fan.pairs {
+            let (s, t) = (fan.slots[f as usize], fan.slots[g as usize]);
+            (across[s as usize], across[t as usize]) = (t, s);
+        }
+    });
+    Glue { across, clashes: fringe.clashes }
 }
 
-/// As `glue`, but for each slot the corner of the cell across that is not in the facet, or `BORDER`; and the clashes.
-pub fn far_corners(cells: &[[u32; 4]], vertices: usize) -> (Vec<u32>, Vec<Vec<u32>>) {
-    matched(cells, vertices, |_, corner| corner)
+/// The cells of which a vertex is the smallest corner or the second smallest, and their facets of which it is the smallest.
+///
+/// Facets count from 0: three for each of the former cells, then one for each of the latter.
+#[derive(Clone, Debug, Default)]
+pub struct Fan {
+    /// The vertex.
+    pub a: u32,
+    /// The cells of which it is the smallest corner, each with `4 t + k`, k being the place of that.
+    pub first: Vec<(u32, [u32; 4])>,
+    /// The cells of which it is the second smallest corner, with k the place of the smallest.
+    pub second: Vec<(u32, [u32; 4])>,
+    /// The slot of each facet.
+    pub slots: Vec<u32>,
+    /// The corner across from each facet in its cell.
+    pub corners: Vec<u32>,
+    /// Facets that are one, the smaller number first, ascending.
+    pub pairs: Vec<[u32; 2]>,
 }
 
-/// For each slot what `tell` says of the one across, given that and its corner.
-fn matched(cells: &[[u32; 4]], vertices: usize, tell: impl Fn(u32, u32) -> u32) -> (Vec<u32>, Vec<Vec<u32>>) {
+/// Facets without a mate.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Fringe {
+    /// The slots of facets of one cell alone, ascending.
+    pub border: Vec<u32>,
+    /// As in `Glue`.
+    pub clashes: Vec<Vec<u32>>,
+    /// Whether a cell has each vertex.
+    pub is_used: Vec<bool>,
+}
+
+/// Shows the fan of each vertex, as `glue` would link its cells, and tells what is not linked.
+pub fn visit(cells: &[[u32; 4]], vertices: usize, mut see: impl FnMut(&Fan)) -> Fringe {
     let [first, second] = Buckets::both(cells, vertices);
-    let mut matching = Matching { tell, told: vec![BORDER; 4 * cells.len()], table: Vec::new() };
-    let mut bucket = Bucket { a: 0, first: Vec::new(), second: Vec::new() };
-    let mut clashes = Vec::new();
-    for a in 0..vertices as u32 {
-        bucket.a = a;
-        first.fetch(cells, a, &mut bucket.first);
-        second.fetch(cells, a, &mut bucket.second);
-        if bucket.len() > SMALL || !matching.by_table(&bucket) {
-            matching.by_sorting(&bucket, &mut clashes);
+    let mut matching = Matching {
+        stamp: 0,
+        numbers: vec![0; vertices],
+        table: vec![0; (NUMBERS * NUMBERS) as usize],
+        turned: Vec::new(),
+    };
+    let (mut fan, mut fringe) = (Fan::default(), Fringe::default());
+    let mut fetched = [Vec::new(), Vec::new()];
+    for block in (0..vertices).step_by(BLOCK).map(|a| a..vertices.min(a + BLOCK)) {
+        first.fetch(cells, block.clone(), &mut fetched[0]);
+        second.fetch(cells, block.clone(), &mut fetched[1]);
+        let [mut firsts, mut seconds] = fetched.each_ref().map(|f| f.iter());
+        for a in block {
+            fan.a = a as u32;
+            fan.first.clear();
+            fan.first.extend(firsts.by_ref().take(first.count(a)));
+            fan.second.clear();
+            fan.second.extend(seconds.by_ref().take(second.count(a)));
+            if !matching.by_table(&mut fan, &mut fringe) {
+                fan.by_sorting(&mut fringe);
+            }
+            see(&fan);
         }
     }
-    (matching.told, clashes)
+    fringe.border.sort_unstable();
+    // A vertex is numbered, or is the smallest corner.
+    fringe.is_used = (0..vertices).map(|v| matching.numbers[v] > 0 || first.count(v) > 0).collect();
+    fringe
 }
 
 /// Cells by a vertex, `4 t + k` with k the place of the smallest corner: where the bucket of each vertex ends, and the cells.
@@ -102,10 +150,19 @@ impl Buckets {
         [Buckets { ends, entries: first }, Buckets { ends: second_ends, entries: second }]
     }
 
-    /// Puts the entries of a vertex into a list, with their cells: memory answers many questions in the time of one.
-    fn fetch(&self, cells: &[[u32; 4]], a: u32, into: &mut Vec<(u32, [u32; 4])>) {
-        let from = if a == 0 { 0 } else { self.ends[a as usize - 1] };
-        let entries = &self.entries[from as usize..self.ends[a as usize] as usize];
+    /// Where the bucket of a vertex begins.
+    fn start(&self, a: usize) -> usize {
+        if a == 0 { 0 } else { self.ends[a - 1] as usize }
+    }
+
+    /// How many cells are in the bucket of a vertex.
+    fn count(&self, a: usize) -> usize {
+        self.ends[a] as usize - self.start(a)
+    }
+
+    /// Puts the entries of some vertices into a list, with their cells: memory answers many questions in the time of one.
+    fn fetch(&self, cells: &[[u32; 4]], vertices: std::ops::Range<usize>, into: &mut Vec<(u32, [u32; 4])>) {
+        let entries = &self.entries[self.start(vertices.start)..self.start(vertices.end)];
         into.clear();
         into.extend(entries.iter().map(|&e| (e, cells[(e / 4) as usize])));
     }
@@ -154,94 +211,113 @@ fn opposite(a: u32, &(entry, cell): &(u32, [u32; 4])) -> Facet {
     Facet { slot: entry, corner: s, edge }
 }
 
-/// The facets whose smallest corner is a: cells of which it is the smallest, and cells of which it is the second smallest.
-struct Bucket {
-    a: u32,
-    first: Vec<(u32, [u32; 4])>,
-    second: Vec<(u32, [u32; 4])>,
-}
-
-impl Bucket {
-    fn len(&self) -> usize {
-        3 * self.first.len() + self.second.len()
+impl Fan {
+    /// The corners of the cell of a facet: a, p, q, r, positive.
+    pub fn corners_of(&self, f: u32) -> [u32; 4] {
+        let (f, first) = (f as usize, 3 * self.first.len());
+        let (_, cell) = if f < first { self.first[f / 3] } else { self.second[f - first] };
+        // a is in its cells.
+        let k = cell.iter().position(|&v| v == self.a).unwrap_or(0);
+        [0, 1, 2, 3].map(|i| cell[k ^ i])
     }
 
+    /// The facets, in their order.
     fn facets(&self) -> impl Iterator<Item = Facet> {
         self.first.iter().flat_map(around).chain(self.second.iter().map(|e| opposite(self.a, e)))
     }
-}
 
-/// Facets under way to be matched.
-struct Matching<T> {
-    tell: T,
-    told: Vec<u32>,
-    /// Facets by edge, in places that a product scatters: the edge, perhaps with `MARK` (0: free), slot and what is told of it.
-    table: Vec<(u64, u32, u32)>,
-}
-
-impl<T: Fn(u32, u32) -> u32> Matching<T> {
-    /// Matches the facets of a bucket; false if some clash, and then none are.
-    fn by_table(&mut self, bucket: &Bucket) -> bool {
-        // At most one in four places is taken.
-        let size = (4 * bucket.len()).next_power_of_two().max(2);
-        let shift = 64 - size.trailing_zeros();
-        self.table.clear();
-        self.table.resize(size, (0, 0, 0));
-        let mut clash = false;
-        for entry in &bucket.first {
-            for f in &around(entry) {
-                clash |= self.insert(f, shift);
-            }
-        }
-        for entry in &bucket.second {
-            clash |= self.insert(&opposite(bucket.a, entry), shift);
-        }
-        if clash {
-            bucket.facets().for_each(|f| self.told[f.slot as usize] = BORDER);
-        }
-        !clash
-    }
-
-    /// Matches a facet with what is in the table, or puts it there; whether it clashes. That a facet is the first or the second cannot be
-    /// foreseen: both write the same, without a branch.
-    #[inline]
-    fn insert(&mut self, f: &Facet, shift: u32) -> bool {
-        let [b, c] = f.edge.map(u64::from);
-        let (key, turned) = (b << 32 | c, c << 32 | b);
-        // The golden ratio spreads keys well (Knuth).
-        let hash = |key: u64| (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> shift) as usize;
-        let mut at = hash(key.min(turned));
-        let mut held = self.table[at].0 & !MARK;
-        while held != 0 && held != key && held != turned {
-            at = (at + 1) & (self.table.len() - 1);
-            held = self.table[at].0 & !MARK;
-        }
-        let found = held != 0;
-        let place = &mut self.table[at];
-        let clash = held == key || place.0 & MARK != 0;
-        let told = (self.tell)(f.slot, f.corner);
-        let (other, of_other) = if found { (place.1, place.2) } else { (f.slot, BORDER) };
-        self.told[other as usize] = if found { told } else { BORDER };
-        self.told[f.slot as usize] = of_other;
-        *place = (if found { key | MARK } else { key }, f.slot, told);
-        clash
-    }
-
-    /// Matches the facets of a bucket and reports what clashes.
-    fn by_sorting(&mut self, bucket: &Bucket, clashes: &mut Vec<Vec<u32>>) {
+    /// Matches the facets and tells what clashes.
+    fn by_sorting(&mut self, fringe: &mut Fringe) {
         let ascending = |[b, c]: [u32; 2]| [b.min(c), b.max(c)];
-        let mut all: Vec<([u32; 2], Facet)> = bucket.facets().map(|f| (ascending(f.edge), f)).collect();
-        all.sort_unstable_by_key(|(edge, f)| (*edge, f.edge[0], f.slot));
+        let mut all: Vec<([u32; 2], u32, Facet)> =
+            (0..).zip(self.facets()).map(|(k, f)| (ascending(f.edge), k, f)).collect();
+        all.sort_unstable_by_key(|(edge, _, f)| (*edge, f.edge[0], f.slot));
+        self.pairs.clear();
         for same in all.chunk_by(|f, g| f.0 == g.0) {
             match *same {
-                [_] => {}
-                [(_, f), (_, g)] if f.edge != g.edge => {
-                    self.told[f.slot as usize] = (self.tell)(g.slot, g.corner);
-                    self.told[g.slot as usize] = (self.tell)(f.slot, f.corner);
-                }
-                _ => clashes.push(same.iter().map(|(_, f)| f.slot).collect()),
+                [(_, _, f)] => fringe.border.push(f.slot),
+                [(_, k, f), (_, l, g)] if f.edge != g.edge => self.pairs.push([k.min(l), k.max(l)]),
+                _ => fringe.clashes.push(same.iter().map(|(_, _, f)| f.slot).collect()),
             }
         }
+        self.pairs.sort_unstable();
+    }
+}
+
+/// A table under way.
+struct Matching {
+    /// The number of the fan at hand, from 1 on.
+    stamp: u64,
+    /// For each vertex the last fan that it was met in, and its number there.
+    numbers: Vec<u64>,
+    /// For each edge, by the numbers of its ends, the last fan that it was met in, and its facet.
+    table: Vec<u64>,
+    /// For each facet the place in the table of its edge turned.
+    turned: Vec<u32>,
+}
+
+impl Matching {
+    /// Matches the facets of a fan; false if some clash or corners are many, and then none are. What cannot be foreseen is not branched on: of
+    /// a pair and of the border each is written, and kept if it is one.
+    fn by_table(&mut self, fan: &mut Fan, fringe: &mut Fringe) -> bool {
+        self.stamp += 1;
+        let (mut count, mut clash) = (0, false);
+        self.turned.clear();
+        fan.slots.clear();
+        fan.corners.clear();
+        for entry in &fan.first {
+            let facets = around(entry);
+            let [p, q, r] = facets.map(|f| self.number(f.corner, &mut count));
+            fan.slots.extend(facets.map(|f| f.slot));
+            fan.corners.extend(facets.map(|f| f.corner));
+            clash |= self.enter([q, r]) | self.enter([r, p]) | self.enter([p, q]);
+        }
+        for entry in &fan.second {
+            let facet = opposite(fan.a, entry);
+            let edge = facet.edge.map(|v| self.number(v, &mut count));
+            fan.slots.push(facet.slot);
+            fan.corners.push(facet.corner);
+            clash |= self.enter(edge);
+        }
+        if clash || count > NUMBERS {
+            return false;
+        }
+        let (mut pairs, mut border) = (0, fringe.border.len());
+        fan.pairs.resize(fan.slots.len(), [0; 2]);
+        fringe.border.resize(border + fan.slots.len(), 0);
+        for ((f, &place), &slot) in (0..).zip(&self.turned).zip(&fan.slots) {
+            let across = self.table[place as usize];
+            let (alone, mate) = (across >> 32 != self.stamp, across as u32);
+            fan.pairs[pairs] = [f, mate];
+            pairs += usize::from(!alone & (f < mate));
+            fringe.border[border] = slot;
+            border += usize::from(alone);
+        }
+        fan.pairs.truncate(pairs);
+        fringe.border.truncate(border);
+        true
+    }
+
+    /// The number of a vertex in the fan at hand, the next one if it has none.
+    #[inline]
+    fn number(&mut self, v: u32, count: &mut u32) -> u32 {
+        let place = &mut self.numbers[v as usize];
+        let is_new = *place >> 32 != self.stamp;
+        let number = if is_new { *count } else { *place as u32 };
+        *place = self.stamp << 32 | u64::from(number);
+        *count += u32::from(is_new);
+        // Where they are more, the table is not used.
+        number % NUMBERS
+    }
+
+    /// Puts the next facet, with an edge from number i to number j, into the table; whether one with that edge is there.
+    #[inline]
+    fn enter(&mut self, [i, j]: [u32; 2]) -> bool {
+        let place = &mut self.table[(i * NUMBERS + j) as usize];
+        let clash = *place >> 32 == self.stamp;
+        *place = self.stamp << 32 | self.turned.len() as u64;
+        self.turned.push(j * NUMBERS + i);
+        clash
     }
 }
 
@@ -265,8 +341,11 @@ mod tests {
         let mut across = vec![BORDER; 8];
         (across[3], across[4]) = (4, 3);
         assert_eq!(pair, Glue { across, clashes: vec![] });
-        let (far, _) = far_corners(&[[0, 1, 2, 3], [4, 0, 1, 2]], 5);
-        assert_eq!((far[3], far[4], far.iter().filter(|&&v| v == BORDER).count()), (4, 3, 6));
+        let mut met = Vec::new();
+        let fringe = visit(&[[0, 1, 2, 3], [4, 0, 1, 2]], 5, |fan| {
+            met.extend(fan.pairs.iter().map(|pair| pair.map(|f| (fan.slots[f as usize], fan.corners[f as usize]))));
+        });
+        assert_eq!((met, fringe.border), (vec![[(3, 3), (4, 4)]], vec![0, 1, 2, 5, 6, 7]));
         let same_side = glue(&[[0, 1, 2, 3], [0, 1, 2, 4]], 5);
         assert_eq!(same_side, Glue { across: vec![BORDER; 8], clashes: vec![vec![3, 7]] });
         let three = glue(&[[0, 1, 2, 3], [4, 0, 1, 2], [0, 1, 2, 5]], 6);
@@ -277,7 +356,7 @@ mod tests {
     #[test]
     fn large_buckets_match_as_small_ones() {
         // A fan around an edge of vertex 0 or of the last vertex: one large bucket, or many small ones.
-        let n = 3 * SMALL as u32;
+        let n = 3 * NUMBERS;
         let fan: Vec<[u32; 4]> = (0..n).map(|i| [0, 1, i + 2, (i + 1) % n + 2]).collect();
         let renamed: Vec<[u32; 4]> = fan.iter().map(|t| t.map(|v| n + 1 - v)).collect();
         let (large, small) = (glue(&fan, n as usize + 2), glue(&renamed, n as usize + 2));
