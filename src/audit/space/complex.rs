@@ -33,6 +33,8 @@ pub(super) struct Complex<'a> {
     pub in_file: Vec<u32>,
     /// Positions in the file of cells that are negative there.
     pub negative: Vec<u32>,
+    /// Positions in the file of cells that have no orientation: flat, or not of four points.
+    pub improper: Vec<u32>,
     /// Whether all points are finite.
     all_finite: bool,
     /// A scaled coordinate of 1 stands for 2 to this power.
@@ -53,6 +55,7 @@ impl<'a> Complex<'a> {
             cells: Vec::with_capacity(subject.cells.len()),
             in_file: Vec::with_capacity(subject.cells.len()),
             negative: Vec::new(),
+            improper: Vec::new(),
             exponent,
             unscalable,
         };
@@ -131,11 +134,13 @@ impl<'a> Complex<'a> {
     fn take_one(&mut self, i: u32, mut cell: [u32; 4], places: Option<&[Point3; 4]>, report: &mut ClaimReport) {
         let subject = self.subject;
         if let Some(&v) = cell.iter().find(|&&v| v as usize >= self.sites.len()) {
+            self.improper.push(i);
             report.violated(subject, &[], &[i], || format!("cell {i} refers to vertex {v}, which does not exist"));
             return;
         }
         let broken = |v: &&u32| !self.all_finite && !is_finite(subject, **v);
         if let Some(&v) = cell.iter().find(broken) {
+            self.improper.push(i);
             report.violated(subject, &[v], &[i], || format!("cell {i} has vertex {v}, which is not finite"));
             return;
         }
@@ -150,7 +155,7 @@ impl<'a> Complex<'a> {
                 cell.swap(2, 3);
             }
             Sign::Zero => {
-                let [a, b, c, d] = cell;
+                self.improper.push(i);
                 report.violated(subject, &cell, &[i], || {
                     format!("cell {i} is degenerate: {a}, {b}, {c}, {d} lie in one plane")
                 });
@@ -218,7 +223,14 @@ pub(super) fn orientation(complex: &Complex<'_>) -> ClaimReport {
         let vertices = complex.subject.cells[t as usize].map(|v| v.0);
         report.violated(complex.subject, &vertices, &[t], || format!("cell {t} {vertices:?} is negative"));
     }
-    let all = !complex.negative.is_empty() && complex.negative.len() == complex.cells.len();
+    for &t in &complex.improper {
+        let vertices = complex.subject.cells[t as usize].map(|v| v.0);
+        let known: Vec<u32> = vertices.into_iter().filter(|&v| (v as usize) < complex.sites.len()).collect();
+        report.violated(complex.subject, &known, &[t], || {
+            format!("cell {t} {vertices:?} has no orientation: it is flat, or not of four points")
+        });
+    }
+    let all = !complex.negative.is_empty() && complex.negative.len() == complex.subject.cells.len();
     let mut report = report.conclude("every cell is positive");
     if all {
         report.message = "every cell is negative".into();

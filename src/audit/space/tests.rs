@@ -579,3 +579,15 @@ fn conflicts_are_seen_under_all_names() {
         }
     }
 }
+
+#[test]
+fn a_flat_cell_has_no_orientation() {
+    let p = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    for cells in [vec![[0, 1, 2, 3]], vec![[0, 1, 2, 4], [0, 1, 1, 4]], vec![[0, 1, 2, 4], [0, 1, 2, 9]]] {
+        for claims in [&[Claim::Orientation][..], &[Claim::Orientation, Claim::Delaunay]] {
+            let report = run_all(&p, &[], &cells, claims);
+            let orientation = report.claim(Claim::Orientation).expect("it was asked for");
+            assert_eq!((orientation.verdict, orientation.violations), (Verdict::Violated, 1), "{cells:?}");
+        }
+    }
+}
