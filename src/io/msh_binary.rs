@@ -4,6 +4,7 @@
 //! the same ones are read back. A count that lies ends with the bytes, so that the text is no longer than some three times the file.
 
 use super::ReadError;
+use super::error::shown;
 use super::rows::Rows;
 use super::scalar::{Scalar, whole};
 use std::borrow::Cow;
@@ -37,7 +38,7 @@ fn as_text(bytes: &[u8]) -> Result<Cow<'_, [u8]>, ReadError> {
         return Ok(Cow::Borrowed(bytes));
     };
     if size != "8" {
-        return Err(source.fault(format!("the size of numbers is {size} bytes"), "save it as ASCII"));
+        return Err(source.fault(format!("the size of numbers is {} bytes", shown(size)), "save it as ASCII"));
     }
     source.big_endian = source.take(4)? == [0, 0, 0, 1];
     source.bytes = source.bytes.trim_ascii_start();
@@ -64,7 +65,7 @@ struct Source<'a> {
 
 impl<'a> Source<'a> {
     fn fault(&self, problem: impl Into<String>, fix: &str) -> ReadError {
-        let element = format!("${}", self.section);
+        let element = format!("${}", shown(&self.section));
         ReadError { part: ".msh", element, problem: problem.into(), fix: fix.into(), ..ReadError::default() }
     }
 
@@ -130,7 +131,7 @@ impl<'a> Source<'a> {
         let row = self.row()?;
         self.put(row);
         self.end_row();
-        row.parse().map_err(|_| self.fault(format!("a number is due, not `{}`", super::error::shown(row)), ""))
+        row.parse().map_err(|_| self.fault(format!("a number is due, not `{}`", shown(row)), ""))
     }
 
     /// Copies a section; says whether what follows makes sense.

@@ -483,6 +483,10 @@ fn binary_msh_is_read() {
                 &more,
                 ".msh: $Nodes: bytes that are no text where a line of text is due; the counts of the section are wrong, or the file is damaged",
             ),
+            (
+                b"$MeshFormat\n2.2 1 \x078\n",
+                ".msh: $MeshFormat: the size of numbers is \\u{7}8 bytes; save it as ASCII",
+            ),
             (&no_node, ".msh: element 2: there is no node 15; correct the element or add the node"),
             (
                 &bytes[..200],
