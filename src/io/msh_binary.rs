@@ -69,16 +69,21 @@ impl<'a> Source<'a> {
         ReadError { part: ".msh", element, problem: problem.into(), fix: fix.into(), ..ReadError::default() }
     }
 
+    fn truncated(&self) -> ReadError {
+        self.fault("the file ends within it", "the file is truncated or declares too many elements")
+    }
+
     fn take(&mut self, count: usize) -> Result<&'a [u8], ReadError> {
-        let fix = "the file is truncated or declares too many elements";
-        let (head, rest) =
-            self.bytes.split_at_checked(count).ok_or_else(|| self.fault("the file ends within it", fix))?;
+        let (head, rest) = self.bytes.split_at_checked(count).ok_or_else(|| self.truncated())?;
         self.bytes = rest;
         Ok(head)
     }
 
     /// The next line of text, without the white space around it.
     fn row(&mut self) -> Result<&'a str, ReadError> {
+        if self.bytes.is_empty() {
+            return Err(self.truncated());
+        }
         let length = self.bytes.iter().position(|&b| b == b'\n').unwrap_or(self.bytes.len());
         let row = std::str::from_utf8(&self.bytes[..length]).ok().filter(|row| !row.contains('\0'));
         let fix = "the counts of the section are wrong, or the file is damaged";

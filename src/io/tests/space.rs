@@ -487,6 +487,10 @@ fn binary_msh_is_read() {
                 b"$MeshFormat\n2.2 1 \x078\n",
                 ".msh: $MeshFormat: the size of numbers is \\u{7}8 bytes; save it as ASCII",
             ),
+            (
+                b"$MeshFormat\n2.2 1 8\n\x01\0\0\0\n$EndMeshFormat\n$PhysicalNames\n1111111111111111\n",
+                ".msh: $PhysicalNames: the file ends within it; the file is truncated or declares too many elements",
+            ),
             (&no_node, ".msh: element 2: there is no node 15; correct the element or add the node"),
             (
                 &bytes[..200],
