@@ -1,7 +1,7 @@
 //! Traces of space whose ends are wrong though every number in them fits: what a plausible checker would let pass.
 
-use orthoball::check::{Options, Place, Rule, Verdict, verify};
-use orthoball::trace::{Reader, Record};
+use orthoball::check::{Checker, Options, Place, Rule, Verdict, verify};
+use orthoball::trace::{Reader, Record, Record3};
 
 /// Three points of a plane and a fourth, vertex 3, all of whose cells the flood of the fifth destroys: it is no corner of the rim and yet not hidden. Then the
 /// points span space, and the lost vertex is removed as if its star were empty.
@@ -122,4 +122,36 @@ fn forgeries_are_refused_where_they_go_wrong() {
             }
         }
     }
+}
+
+/// Places in the input that are none are refused, no later than at the start; whoever asks for the triangulation at any record gets one.
+#[test]
+fn places_in_the_input_are_each_once() {
+    let header =
+        r#"{"format":"orthoball-trace","version":1,"algorithm":"regular","weighted":false,"permuted":true,"scale":0}"#;
+    let raise = r#"{"i":0,"event":"raise","id":0,"apexes":["+x","+y","+z"]}"#;
+    let vertex = |place: u32| format!("{{\"vertex\":[{place}.0,0.0,0.0],\"input\":{place}}}");
+    let refused = |lines: &[String]| {
+        let text = format!("{header}\n{}\n", lines.join("\n"));
+        let mut checker = Checker::new(Options { strict: false, digests: true });
+        let mut records = Reader::new(text.as_bytes()).map_while(Result::ok);
+        let (mut count, mut met) = (0, 0);
+        let rejection = records.find_map(|record| {
+            met += 1;
+            count += usize::from(matches!(record, Record::Space(Record3::Vertex { .. })));
+            let rejection = checker.push(&record).err().map(|r| (r.event, r.rule));
+            let points = checker.triangulation().map_or(0, |t| t.points.len());
+            assert_eq!(points, if rejection == Some((Place::Domain, Rule::Domain)) { count - 1 } else { count });
+            rejection
+        });
+        (met, rejection)
+    };
+    let domain = Some((Place::Domain, Rule::Domain));
+    let start = |places: [u32; 3]| refused(&[&places.map(vertex)[..], &[r#"{"start":0}"#.to_string()]].concat());
+    assert_eq!(start([2, 0, 1]), (5, None));
+    for places in [[2, 0, 2], [2, 0, 3], [u32::MAX, 0, 1]] {
+        assert_eq!(start(places), (5, Some((Place::Start, Rule::Domain))), "{places:?}");
+    }
+    let late = |place: u32| refused(&[vertex(0), r#"{"start":0}"#.into(), raise.into(), vertex(place)]);
+    assert_eq!([0, 1, 2].map(late), [(5, domain), (5, None), (5, domain)]);
 }

@@ -1,14 +1,14 @@
 //! From records of space to a verdict.
 
 use super::certificate::euler_characteristic;
-use super::claims;
+use super::claims::{self, Named};
 use super::complex::number;
 use super::replay::Replay;
 use crate::check::checker::Options;
 use crate::check::scale::power_of_two;
 use crate::check::verdict::{Checked, Place, Rejection, Rule, broken, ensure, placed};
 use crate::model::{Tetrahedron, Triangulation3, VertexId, WeightedPoint};
-use crate::trace::{Apex, End3, Event3, Header3, Record3, apex_id, triangulation_digest};
+use crate::trace::{Apex, End3, Event3, Header3, Record3, apex_id};
 
 /// Takes a trace of space record by record. Memory: the complex.
 #[derive(Clone, Debug)]
@@ -80,9 +80,10 @@ impl Checker3 {
         self.take(record).map_err(|b| placed(b, place))
     }
 
-    /// The triangulation after the last record, input units; proved as far as the records were.
+    /// The triangulation after the last record, input units; proved as far as the records were. Before the start, points are called by their ids.
     pub fn triangulation(&self) -> Triangulation3 {
-        claims::triangulation(&self.replay, &self.inputs, |p| self.unscaled(p))
+        let inputs = if self.stage > Stage::Domain { &self.inputs[..] } else { &[] };
+        Named::new(&self.replay, inputs).triangulation(|p| self.unscaled(p))
     }
 
     fn take(&mut self, record: &Record3) -> Checked {
@@ -118,6 +119,10 @@ impl Checker3 {
         let few = self.replay.points.len() < i32::MAX as usize - 4;
         ensure(few, Rule::Domain, || ("fewer than 2^31 points", "more"))?;
         let scaled = self.scaled(point)?;
+        // Before the start places come in any order.
+        let next = self.replay.points.len() as u32;
+        let in_turn = self.stage == Stage::Domain || input.is_none_or(|k| k == next);
+        ensure(in_turn, Rule::Domain, || (format!("the next place in the input, {next}"), format!("{input:?}")))?;
         self.inputs.extend(input);
         self.replay.add_point(scaled);
         Ok(())
@@ -144,6 +149,7 @@ impl Checker3 {
 
     fn start(&mut self, apexes: &[Apex], simplices: u32) -> Checked {
         self.at(Stage::Domain, Stage::Domain)?;
+        self.check_inputs()?;
         self.stage = if simplices == 0 { Stage::Events } else { Stage::Start };
         let sane = if simplices == 0 { apexes.is_empty() } else { apexes.len() <= 3 };
         ensure(sane, Rule::Dimension, || {
@@ -182,15 +188,15 @@ impl Checker3 {
         self.stage = Stage::Ended;
         self.replay.check_settled()?;
         claims::check_points(&self.replay)?;
-        let own = claims::counts(&self.replay);
+        let named = Named::new(&self.replay, &self.inputs);
+        let own = claims::counts(&self.replay, named.len());
         ensure(end.counts == own, Rule::Counts, || (format!("{own:?}"), format!("{:?}", end.counts)))?;
-        self.check_inputs()?;
         if self.options.strict {
             let euler = if self.replay.is_empty() { 0 } else { euler_characteristic(&self.replay.mesh) };
             ensure(euler == 0, Rule::Euler, || ("0", format!("{euler}")))?;
         }
         if self.options.digests {
-            let own = triangulation_digest(&self.triangulation());
+            let own = named.digest(|p| self.unscaled(p));
             ensure(end.mesh == own, Rule::Digest, || (own.clone(), end.mesh.clone()))?;
         }
         Ok(())

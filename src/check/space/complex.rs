@@ -177,9 +177,9 @@ impl Complex {
         self.cells().filter(|&c| self.cells[c as usize].is_finite())
     }
 
-    /// The corners of all tetrahedra.
-    pub fn corner_lists(&self) -> impl Iterator<Item = [u32; 4]> + '_ {
-        self.cells.iter().map(|cell| cell.v).filter(|v| v[0] < MARK && !v.contains(&INFINITE))
+    /// For each slot the corners of the tetrahedron in it, if there is one.
+    pub fn corner_lists(&self) -> impl ExactSizeIterator<Item = Option<[u32; 4]>> + '_ {
+        self.cells.iter().map(|cell| (cell.v[0] < MARK && cell.is_finite()).then_some(cell.v))
     }
 
     /// Adds a cell without neighbors.

@@ -116,6 +116,7 @@ impl Flood {
         self.doors.clear();
         self.walls.clear();
         let cell = mesh.destroy(first);
+        self.vertices.expect(4);
         let local = tuple.map(|v| self.number(mesh, v));
         let beyond = tuple.map(|v| cell.beyond[place(&cell, v)]);
         self.cells.push(Flooded { slot: first, positive: true, entry: 0, v: tuple, beyond, local });
@@ -129,6 +130,7 @@ impl Flood {
             for here in ring.clone() {
                 read = self.look_around(mesh, here, bits, read);
             }
+            self.vertices.expect(self.doors.taken().len());
             for door in ring.end - 1..self.doors.taken().len() {
                 let cell = self.enter(mesh, self.doors.taken()[door]);
                 self.cells.push(cell);
@@ -189,10 +191,9 @@ impl Flood {
         ensure(stops, Rule::Flood, || ("a flood that stops where it says", "none, or a cell beyond its rim destroyed"))
     }
 
-    /// The position of a vertex, which is added if it is not there.
+    /// The position of a vertex, which is added if it is not there: there is room for it.
     #[inline(always)]
     fn number(&mut self, mesh: &mut Complex, v: u32) -> u32 {
-        self.vertices.expect(1);
         let known = self.position(mesh, v);
         let count = self.vertices.taken().len() as u32;
         let number = if known == NONE { count } else { known };

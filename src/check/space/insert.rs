@@ -86,16 +86,19 @@ impl Cavity {
         self.made.extend(cells.iter().map(|f| f.slot).take(sides.len()));
         cells.iter().skip(sides.len()).for_each(|f| mesh.release(f.slot));
         self.made.extend((self.made.len()..sides.len()).map(|_| mesh.reserve()));
-        self.links.find(sides, &self.made, vertices.taken().len())?;
+        self.links.enter(sides, &self.made, vertices.taken().len())?;
         self.cell_at.clear();
         self.cell_at.resize(vertices.taken().len(), NONE);
-        for ((side, &c), links) in sides.iter().zip(&self.made).zip(&self.links.found) {
-            let [x, y, z] = side.corners.map(|k| vertices.taken()[k as usize]);
-            side.corners.iter().for_each(|&k| self.cell_at[k as usize] = c);
-            let [u, v, w] = *links;
-            mesh.set(c, Cell { v: [x, y, z, p], beyond: [u, v, w, side.outer] });
-            mesh.set_beyond(side.outer, 4 * c + 3);
+        let mut closed = true;
+        for (&Side { corners: [x, y, z], outer, .. }, &c) in sides.iter().zip(&self.made) {
+            let beyond = [self.links.take(z, y), self.links.take(x, z), self.links.take(y, x), outer];
+            closed &= !beyond.contains(&NONE);
+            [x, y, z].iter().for_each(|&k| self.cell_at[k as usize] = c);
+            let [x, y, z] = [x, y, z].map(|k| vertices.taken()[k as usize]);
+            mesh.set(c, Cell { v: [x, y, z, p], beyond });
+            mesh.set_beyond(outer, 4 * c + 3);
         }
+        self.links.check_closed(closed)?;
         for (&v, &c) in vertices.taken().iter().zip(&self.cell_at) {
             mesh.set_cell_at(v, c);
         }
@@ -205,13 +208,14 @@ fn check_empty(mesh: &Complex, c: u32, q: u32, known: Option<Sign>, ties: Ties) 
     })
 }
 
-/// (4) for one cell beyond the hull.
+/// (4) for one cell beyond the hull: of the edges between two new ones, which end at p, each once.
 fn check_ghost(mesh: &Complex, c: u32) -> Checked {
     let cell = mesh.cell(c);
     let infinite = cell.find(INFINITE).unwrap_or(3);
     let finite = mesh.cell(cell.beyond[infinite] >> 2).is_finite();
     ensure(finite, Rule::Hull, || ("a tetrahedron at a facet of the hull", format!("{:?}", cell.tuple())))?;
-    (0..4).filter(|&k| k != infinite).try_for_each(|k| check_convex(mesh, c, k))
+    let once = |k: usize| k == 3 || cell.beyond[k] >> 2 > c;
+    (0..4).filter(|&k| k != infinite && once(k)).try_for_each(|k| check_convex(mesh, c, k))
 }
 
 /// Whether a lost vertex's cell is in conflict; ties count if they are free.
@@ -228,69 +232,59 @@ const SMALL: usize = 64;
 /// Finds what is across each edge of a rim.
 #[derive(Clone, Debug)]
 struct Links {
-    /// For each facet of the rim, what is beyond the first three facets of the cell on it.
-    found: Vec<[u32; 3]>,
     /// For two positions in a small rim the facet, of the cell there, on the edge that leads from one to the other.
     table: Box<[u32; SMALL * SMALL]>,
-    /// The same for a large rim: ends, whether it leads from the larger to the smaller, facet, place in `found`.
-    edges: Vec<(u32, u32, bool, u32, [u32; 2])>,
+    /// The same for a large rim, by ends.
+    edges: Vec<([u32; 2], u32)>,
+    is_small: bool,
 }
 
 impl Default for Links {
     fn default() -> Links {
-        Links { found: Vec::new(), table: Box::new([NONE; SMALL * SMALL]), edges: Vec::new() }
+        Links { table: Box::new([NONE; SMALL * SMALL]), edges: Vec::new(), is_small: true }
     }
 }
 
 impl Links {
-    fn find(&mut self, sides: &[Side], made: &[u32], vertices: usize) -> Checked {
-        self.found.clear();
-        self.found.resize(sides.len(), [NONE; 3]);
-        if vertices <= SMALL { self.by_table(sides, made) } else { self.by_order(sides, made) }
+    /// Takes up the edges of a rim of so many vertices, on each of whose facets a cell is made.
+    fn enter(&mut self, sides: &[Side], made: &[u32], vertices: usize) -> Checked {
+        self.is_small = vertices <= SMALL;
+        if self.is_small {
+            for (&Side { corners: [x, y, z], .. }, &c) in sides.iter().zip(made) {
+                self.table[place(y, z)] = 4 * c;
+                self.table[place(z, x)] = 4 * c + 1;
+                self.table[place(x, y)] = 4 * c + 2;
+            }
+            return Ok(());
+        }
+        self.edges.clear();
+        for (&Side { corners: [x, y, z], .. }, &c) in sides.iter().zip(made) {
+            self.edges.extend([([y, z], 4 * c), ([z, x], 4 * c + 1), ([x, y], 4 * c + 2)]);
+        }
+        self.edges.sort_unstable();
+        self.check_closed(self.edges.windows(2).all(|e| e[0].0 != e[1].0))
     }
 
-    /// Each edge is taken out of the table by the facet that passes it the other way. Were one written twice, one would be missing.
-    fn by_table(&mut self, sides: &[Side], made: &[u32]) -> Checked {
-        let at = |from: u32, to: u32| (from as usize * SMALL + to as usize) % (SMALL * SMALL);
-        for (side, &c) in sides.iter().zip(made) {
-            let [x, y, z] = side.corners;
-            self.table[at(y, z)] = 4 * c;
-            self.table[at(z, x)] = 4 * c + 1;
-            self.table[at(x, y)] = 4 * c + 2;
+    /// The facet on the edge that leads from one position to another, which is taken out of a table, or `NONE`. Were one entered twice, one would be missing.
+    #[inline]
+    fn take(&mut self, from: u32, to: u32) -> u32 {
+        if self.is_small {
+            return std::mem::replace(&mut self.table[place(from, to)], NONE);
         }
-        let mut closed = true;
-        for (side, found) in sides.iter().zip(&mut self.found) {
-            let [x, y, z] = side.corners;
-            let mut take = |from, to| std::mem::replace(&mut self.table[at(from, to)], NONE);
-            *found = [take(z, y), take(x, z), take(y, x)];
-            closed &= found[0] != NONE && found[1] != NONE && found[2] != NONE;
-        }
+        self.edges.binary_search_by_key(&[from, to], |e| e.0).map_or(NONE, |k| self.edges[k].1)
+    }
+
+    /// If it was not the table is made fit for use again.
+    fn check_closed(&mut self, closed: bool) -> Checked {
         if !closed {
             self.table.fill(NONE);
         }
         ensure(closed, Rule::Star, || ("a closed rim, each edge in two facets", "an open one"))
     }
-
-    fn by_order(&mut self, sides: &[Side], made: &[u32]) -> Checked {
-        self.edges.clear();
-        for ((i, side), &c) in (0u32..).zip(sides).zip(made) {
-            let [x, y, z] = side.corners;
-            for (k, u, w) in [(0, y, z), (1, z, x), (2, x, y)] {
-                self.edges.push((u.min(w), u.max(w), u > w, 4 * c + k, [i, k]));
-            }
-        }
-        self.edges.sort_unstable();
-        for same in self.edges.chunk_by(|e, f| (e.0, e.1) == (f.0, f.1)) {
-            let [(_, _, false, e, from), (_, _, true, f, to)] = *same else {
-                return broken_rim(same.len());
-            };
-            self.found[from[0] as usize][from[1] as usize] = f;
-            self.found[to[0] as usize][to[1] as usize] = e;
-        }
-        Ok(())
-    }
 }
 
-fn broken_rim(facets: usize) -> Checked {
-    crate::check::verdict::broken(Rule::Star, "an edge of the rim in two facets", format!("in {facets}"))
+/// Where a pair of positions stands in the table.
+#[inline]
+fn place(from: u32, to: u32) -> usize {
+    (from as usize * SMALL + to as usize) % (SMALL * SMALL)
 }
