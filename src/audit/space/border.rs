@@ -58,24 +58,18 @@ impl<'a> Border<'a> {
     /// Examines the border, of these slots, of a complex that is valid as far as it is local.
     pub fn examine(complex: &'a Complex<'a>, slots: Vec<u32>, valid: &mut ClaimReport) -> Self {
         let facets: Vec<[u32; 3]> = slots.iter().map(|&s| complex.facet(s)).collect();
-        let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * facets.len());
-        for (f, facet) in (0u32..).zip(&facets) {
-            for k in 0..3 {
-                let (u, v) = (facet[k], facet[(k + 1) % 3]);
-                edges.push((u64::from(u.min(v)) << 32 | u64::from(u.max(v)), 3 * f + k as u32));
-            }
-        }
-        edges.sort_unstable();
+        let edges = sorted_edges(&facets, complex.sites.len());
         let mut border = Border { complex, slots, facets, edges, is_embedded: false, is_convex: false };
-        if !border.is_star_shaped() {
+        let is_star_shaped = border.is_star_shaped();
+        if !is_star_shaped {
             border.embedded(valid);
         }
         border.is_embedded = valid.verdict == Verdict::Holds;
-        // Connected, closed and convex at each edge, hence at each vertex: convex (Tietze, Nakajima).
-        border.is_convex = border.is_embedded
-            && border.edges().all(|edge| edge.len() == 2)
-            && border.reflex().next().is_none()
-            && border.components().1 == 1;
+        // Connected, closed and convex at each edge, hence at each vertex: convex (Tietze, Nakajima). Seen from inside a star-shaped border, a second
+        // component, or a second pair of facets at an edge, would cover directions twice.
+        let is_one_sheet = || border.edges().all(|edge| edge.len() == 2) && border.components().1 == 1;
+        debug_assert!(!is_star_shaped || is_one_sheet(), "directions are covered twice");
+        border.is_convex = border.is_embedded && (is_star_shaped || is_one_sheet()) && border.reflex().next().is_none();
         border
     }
 
@@ -289,5 +283,56 @@ impl<'a> Border<'a> {
             }
         }
         true
+    }
+}
+
+/// The edges of facets as `Border` has them: distributed by their smaller ends, which leaves few of each to be sorted.
+fn sorted_edges(facets: &[[u32; 3]], vertices: usize) -> Vec<(u64, u32)> {
+    let all = || {
+        (0u32..).zip(facets).flat_map(|(f, &[a, b, c])| {
+            let edge = |k: u32, u: u32, v: u32| (u64::from(u.min(v)) << 32 | u64::from(u.max(v)), 3 * f + k);
+            [edge(0, a, b), edge(1, b, c), edge(2, c, a)]
+        })
+    };
+    let smaller = |edge: &(u64, u32)| (edge.0 >> 32) as usize;
+    let mut places = vec![0u32; vertices + 1];
+    all().for_each(|edge| places[smaller(&edge) + 1] += 1);
+    for v in 0..vertices {
+        places[v + 1] += places[v];
+    }
+    let mut edges = vec![(0, 0); 3 * facets.len()];
+    for edge in all() {
+        let place = &mut places[smaller(&edge)];
+        edges[*place as usize] = edge;
+        *place += 1;
+    }
+    edges.chunk_by_mut(|a, b| smaller(a) == smaller(b)).for_each(|same| same.sort_unstable());
+    edges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_are_sorted() {
+        let mut state = 1u64;
+        let mut draw = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as u32 % 40
+        };
+        let facets: Vec<[u32; 3]> = (0..500).map(|_| [draw(), 50 + draw(), 99 - draw() % 5]).collect();
+        let facets: Vec<[u32; 3]> =
+            facets.iter().map(|&[a, b, c]| if a % 2 == 0 { [c, a, b] } else { [c, b, a] }).collect();
+        let mut plain = Vec::new();
+        for (f, facet) in (0u32..).zip(&facets) {
+            for k in 0..3 {
+                let (u, v) = (facet[k], facet[(k + 1) % 3]);
+                plain.push((u64::from(u.min(v)) << 32 | u64::from(u.max(v)), 3 * f + k as u32));
+            }
+        }
+        plain.sort_unstable();
+        assert_eq!(sorted_edges(&facets, 100), plain);
+        assert_eq!(sorted_edges(&[], 0), []);
     }
 }

@@ -82,6 +82,21 @@ fn minor<N: Number>(axis: usize, u: &Vector<N>, v: &Vector<N>) -> N {
 /// The ray starts at the center of `from` and heads in the direction (1, e, e^2) with an infinitesimal e > 0, which lies in no plane
 /// through three points. It crosses if it is in the cone of the corners seen from its start: on the inner side of the cone's three planes.
 pub(super) fn crossing(from: &Triangle, t: &Triangle) -> i32 {
+    if is_out_of_the_way(from, t) { 0 } else { crossing_of_cone(from, t) }
+}
+
+/// Whether all of `t` is behind the start of the ray from `from`, or off its line, by their boxes: exact, as no number is rounded.
+///
+/// The start o lies in the box of `from`. No point of the ray has x < o.x; all of its points that are not infinitely far have y and z infinitely
+/// close to those of o.
+fn is_out_of_the_way(from: &Triangle, t: &Triangle) -> bool {
+    let bounds = |[a, b, c]: &Triangle| (a.min(*b).min(*c), a.max(*b).max(*c));
+    let ((low, high), (t_low, t_high)) = (bounds(from), bounds(t));
+    t_high.x < low.x || t_high.y < low.y || t_high.z < low.z || t_low.y > high.y || t_low.z > high.z
+}
+
+/// As `crossing`, whatever the boxes.
+fn crossing_of_cone(from: &Triangle, t: &Triangle) -> i32 {
     let outgoing = match sign_in_space!(cone(from, t)) {
         Sign::Zero => return 0,
         Sign::Positive => false,
@@ -120,4 +135,35 @@ fn seen<N: Number>(from: &Triangle, p: Point3) -> Vector<N> {
     let axis = |x: f64, a: f64, b: f64, c: f64| (N::of(x) - N::of(a)) + (N::of(x) - N::of(b)) + (N::of(x) - N::of(c));
     let [a, b, c] = from;
     [axis(p.x, a.x, b.x, c.x), axis(p.y, a.y, b.y, c.y), axis(p.z, a.z, b.z, c.z)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Triangles of few places, so that the ray starts in planes, edges and corners, flat ones too, and of places drawn finely.
+    #[test]
+    fn boxes_out_of_the_way_are_not_crossed() {
+        let mut state = 3u64;
+        let mut draw = |places: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % places
+        };
+        let (mut crossed, mut rejected) = ([0; 3], 0);
+        for case in 0..60_000 {
+            let places = [3, 4, 7, 1 << 30][case % 4];
+            let scale = [1.0, 0.1][case / 4 % 2];
+            let mut corner = || Point3::from_array([(); 3].map(|()| draw(places) as f64 * scale));
+            let mut triangle = || [(); 3].map(|()| corner());
+            let (from, t) = (triangle(), triangle());
+            let from = if case % 3 == 0 { [from[0]; 3] } else { from };
+            let crossing = crossing_of_cone(&from, &t);
+            crossed[(crossing + 1) as usize] += 1;
+            if is_out_of_the_way(&from, &t) {
+                assert_eq!(crossing, 0, "{from:?} {t:?}");
+                rejected += 1;
+            }
+        }
+        assert!(rejected > 5_000 && crossed[0] > 1_000 && crossed[2] > 1_000, "{rejected} {crossed:?}");
+    }
 }
