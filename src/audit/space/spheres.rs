@@ -17,7 +17,7 @@ use super::report::{Claim, ClaimReport};
 use crate::audit::report::Verdict;
 use crate::audit::tree::Tree;
 use crate::check::scalar::{Bounded, Scalar};
-use crate::check::space::ball::{Ball as Orthoball, Row};
+use crate::check::space::ball::{Ball as Orthoball, Row, near_side};
 use crate::check::space::glue::{BORDER, Fan};
 use crate::check::space::predicates::{Corners, orient, side, tie_in_conflict};
 use crate::model::{Point3, Sign, WeightedPoint};
@@ -137,7 +137,7 @@ impl<'a> Spheres<'a> {
         for &[f, g] in &self.near {
             let (t, v) = (fan.slots[f as usize] / 4, fan.corners[g as usize]);
             let (corners, q) = (self.corners(t), &self.sites[v as usize]);
-            if self.conflicts(side(&corners, q), &corners, q) {
+            if self.conflicts(near_side(&corners, q), &corners, q) {
                 self.found.push((t, v));
             }
         }

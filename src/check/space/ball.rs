@@ -76,17 +76,25 @@ impl Ball {
     }
 }
 
-/// The side of q against the orthoball of t, whose ball and rows were uncertain: by the same value where nothing in it was rounded, as on grids, else exactly.
+/// The side of q against the orthoball of t, where a ball of it was uncertain: by the same value where nothing in it is rounded, as on grids, else exactly.
 #[cold]
-pub fn near_side(ball: &Ball, t: &Corners, q: &WeightedPoint) -> Sign {
+pub fn near_side(t: &Corners, q: &WeightedPoint) -> Sign {
     if !is_unrounded(t, q) {
         return exact_side(t, q);
     }
-    match ball.value(&Row::new(t[3], *q)) {
+    let (ball, q) = seen_from_last(t, q);
+    match ball.value(&q) {
         value if value > 0.0 => Sign::Positive,
         value if value < 0.0 => Sign::Negative,
         _ => Sign::Zero,
     }
+}
+
+/// The ball of t, and q as seen from its last corner.
+#[inline]
+pub(super) fn seen_from_last(t: &Corners, q: &WeightedPoint) -> (Ball, Row) {
+    let [u, v, w] = [0, 1, 2].map(|k: usize| Row::new(t[3], t[k]));
+    (Ball::new(&u, &v, &w), Row::new(t[3], *q))
 }
 
 /// Whether all numbers seen from the last corner are exact, coordinates multiples of a power of two u below 2^9 u, and weights multiples of u^2 below
@@ -96,30 +104,34 @@ fn is_unrounded(t: &Corners, q: &WeightedPoint) -> bool {
     let others = [t[0], t[1], t[2], *q];
     let (mut low, mut high, mut exact) = (i32::MAX, i32::MIN, true);
     let mut weights = (i32::MAX, i32::MIN);
-    let mut note = |x: f64, y: f64, (low, high): (&mut i32, &mut i32)| {
+    let note = |x: f64, y: f64, exact: &mut bool, (low, high): (&mut i32, &mut i32)| {
         let difference = x - y;
         let part = x - difference;
         // What the subtraction has lost (two-sum, Knuth).
-        exact &= (x - (difference + part)) + (part - y) == 0.0;
+        *exact &= (x - (difference + part)) + (part - y) == 0.0;
         if difference != 0.0 {
             let bits = difference.to_bits();
             let exponent = (bits >> 52 & 0x7ff) as i32;
-            exact &= exponent != 0;
+            *exact &= exponent != 0;
             *low = (*low).min(exponent - 52 + (bits | 1 << 52).trailing_zeros() as i32);
             *high = (*high).max(exponent);
         }
     };
     for o in others {
-        note(o.at.x, p.at.x, (&mut low, &mut high));
-        note(o.at.y, p.at.y, (&mut low, &mut high));
-        note(o.at.z, p.at.z, (&mut low, &mut high));
-        note(o.weight, p.weight, (&mut weights.0, &mut weights.1));
+        note(o.at.x, p.at.x, &mut exact, (&mut low, &mut high));
+        note(o.at.y, p.at.y, &mut exact, (&mut low, &mut high));
+        note(o.at.z, p.at.z, &mut exact, (&mut low, &mut high));
+        note(o.weight, p.weight, &mut exact, (&mut weights.0, &mut weights.1));
+        // Most often the first one tells. (Where all differences are 0, low is the largest number.)
+        if !exact || high > low.saturating_add(8) {
+            return false;
+        }
     }
     // Exponents are biased by 1023. The fifth power of u must not underflow, nor 2^53 of them overflow.
     exact &= (1023 - 200..1023 + 190).contains(&low);
     let unit2 = 2 * (low - 1023) + 1023;
     let light = weights.1 == i32::MIN || (weights.0 >= unit2 && weights.1 - unit2 < 20);
-    exact && high - low < 9 && light
+    exact && light
 }
 
 /// Whether c and e, in one plane with a and b, lie strictly on different sides of the line ab; a, b, c are not collinear.

@@ -110,7 +110,7 @@ fn check_cells(mesh: &Complex, count: u32, ties: Ties) -> Checked {
                 continue;
             }
             let q = mesh.point(q);
-            let own = ball.side(&Row::new(t[3], q)).unwrap_or_else(|| near_side(&ball, &t, &q));
+            let own = ball.side(&Row::new(t[3], q)).unwrap_or_else(|| near_side(&t, &q));
             let conflict = match (own, ties) {
                 (Sign::Zero, Ties::Broken) => tie_in_conflict(&t, &q),
                 (own, _) => own.is_positive(),

@@ -14,7 +14,7 @@
 //! 20 2^-53 `size`. Underflow happens only in the first range, where each loses at most 2^-1074 and is magnified less than 2^12 times: `TINY`
 //! pays for a thousand of them. Overflow gives an infinity or a NaN, and no answer.
 
-use super::ball::{Ball, Row, near_side};
+use super::ball::{near_side, seen_from_last};
 use super::double::sign_in_space;
 use super::integers;
 use crate::check::value::Number;
@@ -111,9 +111,8 @@ fn exact_orient(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
 /// Position of q against the orthosphere of t: positive strictly inside (in conflict), zero on it.
 #[inline]
 pub fn side(t: &Corners, q: &WeightedPoint) -> Sign {
-    let [u, v, w] = [0, 1, 2].map(|k: usize| Row::new(t[3], t[k]));
-    let ball = Ball::new(&u, &v, &w);
-    ball.side(&Row::new(t[3], *q)).unwrap_or_else(|| near_side(&ball, t, q))
+    let (ball, row) = seen_from_last(t, q);
+    ball.side(&row).unwrap_or_else(|| near_side(t, q))
 }
 
 /// As `side`, where doubles cannot tell.

@@ -40,7 +40,7 @@ fn balls_say_what_the_definition_does() {
                 let ball = Ball::new(&u, &v, &w);
                 let (own, truth) = (ball.side(&Row::new(t[3], five[4])), exact_side(&t, &five[4]));
                 assert!(own.is_none_or(|own| own == truth), "{t:?} {:?}", five[4]);
-                assert_eq!(near_side(&ball, &t, &five[4]), truth, "{t:?} {:?}", five[4]);
+                assert_eq!(near_side(&t, &five[4]), truth, "{t:?} {:?}", five[4]);
                 assert!(ball.orientation().is_none_or(|o| o.is_positive()));
                 certain += u32::from(own.is_some());
                 ties += u32::from(truth == Sign::Zero);

@@ -1,5 +1,6 @@
 //! Against a determinant over the rationals, and against the published triangulation of a cube's corners.
 
+use super::super::ball::{Ball, Row};
 use super::*;
 use crate::check::rational::Rational;
 use crate::check::scale::power_of_two;
