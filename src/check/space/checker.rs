@@ -155,6 +155,7 @@ impl Checker3 {
         ensure(sane, Rule::Dimension, || {
             ("at most three apexes, and none without simplices", format!("{}", apexes.len()))
         })?;
+        self.replay.mesh.make_room();
         self.apexes = apexes.to_vec();
         self.replay.set_apexes(apexes);
         self.simplices_left = simplices;

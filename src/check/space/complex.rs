@@ -29,7 +29,10 @@ pub fn id(v: u32) -> VertexId {
 }
 
 /// A cell: corners, positively oriented (the infinite vertex being beyond the facet opposite it), and the facets on the other side.
+///
+/// Aligned so that no cell is in two cache lines.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
 pub struct Cell {
     /// Corners.
     pub v: [u32; 4],
@@ -182,6 +185,13 @@ impl Complex {
         self.cells.iter().map(|cell| (cell.v[0] < MARK && cell.is_finite()).then_some(cell.v))
     }
 
+    /// Makes room for as many cells as points that are spread evenly have. Memory is not touched before it is used, and not copied when there is more.
+    pub fn make_room(&mut self) {
+        const CELLS_PER_POINT: usize = 7;
+        // Where there is not so much, growth by and by must do.
+        let _ = self.cells.try_reserve(CELLS_PER_POINT * self.points.len());
+    }
+
     /// Adds a cell without neighbors.
     #[inline]
     pub fn add(&mut self, v: [u32; 4]) -> u32 {
@@ -236,18 +246,17 @@ impl Complex {
         lives
     }
 
-    /// What a cell marked as destroyed was.
+    /// The corner opposite a facet of a cell that is marked as destroyed.
     #[inline]
-    pub fn marked(&self, c: u32) -> Cell {
-        let mut cell = self.cells[c as usize];
-        cell.v[0] &= !MARK;
-        cell
+    pub fn apex_marked(&self, f: u32) -> u32 {
+        self.apex(f) & !MARK
     }
 
     /// Marks a cell as destroyed, and says what it was.
     pub fn destroy(&mut self, c: u32) -> Cell {
+        let cell = self.cells[c as usize];
         self.cells[c as usize].v[0] |= MARK;
-        self.marked(c)
+        cell
     }
 
     /// Lets the slot of a cell that was taken out be used again.

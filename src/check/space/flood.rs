@@ -48,7 +48,7 @@ impl<T: Copy + Default> Sieve<T> {
 }
 
 /// A cell of the cavity.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Flooded {
     /// Where it was.
     pub slot: u32,
@@ -98,7 +98,7 @@ pub struct Side {
 #[derive(Clone, Debug, Default)]
 pub struct Flood {
     /// The cells destroyed, in order.
-    pub cells: Vec<Flooded>,
+    pub cells: Sieve<Flooded>,
     /// The rim.
     pub sides: Vec<Side>,
     /// All vertices of the cells.
@@ -119,7 +119,8 @@ impl Flood {
         self.vertices.expect(4);
         let local = tuple.map(|v| self.number(mesh, v));
         let beyond = tuple.map(|v| cell.beyond[place(&cell, v)]);
-        self.cells.push(Flooded { slot: first, positive: true, entry: 0, v: tuple, beyond, local });
+        self.cells.expect(1);
+        self.cells.offer(Flooded { slot: first, positive: true, entry: 0, v: tuple, beyond, local }, true);
         // By rings: where the cells of one are known, nothing waits for one to fetch what is around the next.
         self.doors.expect(1);
         self.walls.expect(1);
@@ -130,12 +131,14 @@ impl Flood {
             for here in ring.clone() {
                 read = self.look_around(mesh, here, bits, read);
             }
-            self.vertices.expect(self.doors.taken().len());
-            for door in ring.end - 1..self.doors.taken().len() {
+            let doors = ring.end - 1..self.doors.taken().len();
+            self.vertices.expect(doors.len());
+            self.cells.expect(doors.len());
+            for door in doors {
                 let cell = self.enter(mesh, self.doors.taken()[door]);
-                self.cells.push(cell);
+                self.cells.offer(cell, true);
             }
-            ring = ring.end..self.cells.len();
+            ring = ring.end..self.cells.taken().len();
         }
         ensure(read == bits.len(), Rule::Flood, || {
             ("a bit for each facet of the flood", format!("{} bits for {read} facets", bits.len()))
@@ -148,14 +151,14 @@ impl Flood {
     fn look_around(&mut self, mesh: &mut Complex, here: usize, bits: &Bits, read: u32) -> u32 {
         const OTHERS: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
         let next = bits.window(read);
-        let entry = usize::from(self.cells[here].entry & 3);
+        let entry = usize::from(self.cells.taken()[here].entry & 3);
         OTHERS[entry].into_iter().fold(0, |met, k| met + self.look(mesh, here, k, next >> met)) + read
     }
 
     /// Reads what becomes of a facet. Says how many bits that took: none, if the cell beyond was destroyed before.
     #[inline(always)]
     fn look(&mut self, mesh: &mut Complex, here: usize, k: usize, bits: u32) -> u32 {
-        let met = Met { of: (4 * here + k) as u32, outer: self.cells[here].beyond[k] };
+        let met = Met { of: (4 * here + k) as u32, outer: self.cells.taken()[here].beyond[k] };
         let bit = bits & 1 == 1;
         let open = mesh.meet(met.outer >> 2, bit);
         self.doors.offer(met, open & bit);
@@ -163,16 +166,16 @@ impl Flood {
         u32::from(open)
     }
 
-    #[inline]
+    #[inline(always)]
     fn enter(&mut self, mesh: &mut Complex, door: Met) -> Flooded {
         let slot = door.outer >> 2;
-        let cell = mesh.marked(slot);
-        let own = cell.v[(door.outer & 3) as usize];
+        let own = mesh.apex_marked(door.outer);
         let number = self.number(mesh, own);
-        let from = &self.cells[(door.of >> 2) as usize];
+        let from = &self.cells.taken()[(door.of >> 2) as usize];
         let replaced = |old: &[u32; 4], new| [0, 1, 2, 3].map(|k| if k == door.of & 3 { new } else { old[k as usize] });
         let (v, local) = (replaced(&from.v, own), replaced(&from.local, number));
-        let beyond = v.map(|w| cell.beyond[place(&cell, w)]);
+        let cell = mesh.cell(slot);
+        let beyond = v.map(|w| cell.beyond[place(cell, w)]);
         Flooded { slot, positive: !from.positive, entry: (door.of & 3) as u8, v, beyond, local }
     }
 
@@ -181,7 +184,7 @@ impl Flood {
         self.sides.clear();
         let mut stops = !self.walls.taken().is_empty();
         for &Met { of, outer } in self.walls.taken() {
-            let Flooded { local, positive, .. } = &self.cells[(of >> 2) as usize];
+            let Flooded { local, positive, .. } = &self.cells.taken()[(of >> 2) as usize];
             let [x, y, z] = FACETS[(of & 3) as usize].map(|i| local[i]);
             let corners = if *positive { [x, y, z] } else { [y, x, z] };
             self.sides.push(Side { corners, inner: local[(of & 3) as usize], outer, apex: mesh.apex(outer) });
@@ -211,11 +214,11 @@ impl Flood {
 
     /// Of the cells destroyed the last one in canonical order.
     pub fn last(&self) -> Option<Tetrahedron> {
-        self.cells.iter().map(|f| f.cell().tuple()).max()
+        self.cells.taken().iter().map(|f| f.cell().tuple()).max()
     }
 }
 
-/// Where a corner stands in a cell, found without a branch.
+/// Where a corner stands in a cell, which may be marked as destroyed, found without a branch.
 #[inline]
 fn place(cell: &Cell, v: u32) -> usize {
     // Not above 3, since corners differ.

@@ -67,7 +67,7 @@ impl Cavity {
         if self.flood.position(mesh, INFINITE) == NONE {
             return Ok(());
         }
-        for f in &self.flood.cells {
+        for f in self.flood.cells.taken() {
             let cell = f.cell();
             if let Some(k) = cell.find(INFINITE) {
                 let [x, y, z] = cell.facet(k).map(|v| mesh.at(v));
@@ -83,6 +83,7 @@ impl Cavity {
     fn make(&mut self, mesh: &mut Complex, p: u32) -> Checked {
         let Flood { cells, sides, vertices, .. } = &self.flood;
         self.made.clear();
+        let cells = cells.taken();
         self.made.extend(cells.iter().map(|f| f.slot).take(sides.len()));
         cells.iter().skip(sides.len()).for_each(|f| mesh.release(f.slot));
         self.made.extend((self.made.len()..sides.len()).map(|_| mesh.reserve()));
@@ -117,12 +118,9 @@ impl Cavity {
 
     /// Sees from p the vertices, and the corner beyond each facet of the rim.
     fn look(&mut self, mesh: &Complex, p: u32) {
-        self.view.begin(mesh.point(p));
         let beyond = self.flood.sides.iter().map(|side| side.apex);
-        for v in self.flood.vertices.taken().iter().copied().chain(beyond) {
-            if v == INFINITE { self.view.add_nowhere() } else { self.view.add(mesh.point(v)) }
-        }
-        self.view.close(mesh.grain());
+        let all = self.flood.vertices.taken().iter().copied().chain(beyond);
+        self.view.look(mesh.point(p), all.map(|v| (v != INFINITE).then(|| mesh.point(v))), mesh.grain());
     }
 
     /// (1), (4) and (5) for a new cell and its orthoball; `beyond` is the position of the corner beyond its facet of the rim.
@@ -158,7 +156,7 @@ impl Cavity {
         }
         let at = mesh.point(p);
         let is_lost = |v: &u32| mesh.cell_at(*v) == NONE;
-        for f in &self.flood.cells {
+        for f in self.flood.cells.taken() {
             let cell = f.cell();
             if !cell.v.iter().any(is_lost) {
                 continue;
@@ -187,7 +185,7 @@ impl Cavity {
             return true;
         }
         let behind = cell.beyond[k] >> 2;
-        let inner = self.flood.cells.iter().find(|g| g.slot == behind).map(Flooded::cell);
+        let inner = self.flood.cells.taken().iter().find(|g| g.slot == behind).map(Flooded::cell);
         inner.is_some_and(|g| g.is_finite() && conflicts(g.v.map(|v| mesh.point(v)), p, ties))
     }
 }

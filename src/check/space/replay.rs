@@ -215,7 +215,7 @@ impl Replay {
             let last = self.cavity.flood.last();
             ensure(last == Some(first), Rule::Canonical, || (format!("{last:?}"), format!("{first:?}")))?;
         }
-        let loose = self.points.loose(self.cavity.flood.cells.iter().map(|f| f.slot));
+        let loose = self.points.loose(self.cavity.flood.cells.taken().iter().map(|f| f.slot));
         self.cavity.star(&mut self.mesh, p, self.ties)?;
         let mut lost = Vec::new();
         self.cavity.check_lost(&self.mesh, p, self.ties, &mut lost)?;

@@ -13,8 +13,12 @@ use super::predicates::{certain, error};
 use crate::check::scale::power_of_two;
 use crate::model::{Sign, WeightedPoint};
 
-/// x, y, z and lift of a point seen from p, or bounds of those.
-type Row = [f64; 4];
+/// x, y, z and lift of a point seen from p.
+///
+/// Aligned so that none is in two cache lines.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(32))]
+struct Row([f64; 4]);
 
 /// An orthoball: -C and D.
 pub type Sphere = [f64; 4];
@@ -22,10 +26,7 @@ pub type Sphere = [f64; 4];
 /// Points seen from p.
 #[derive(Clone, Debug, Default)]
 pub struct View {
-    from: WeightedPoint,
     rows: Vec<Row>,
-    /// Bounds of the rows: X, Y, Z, S.
-    reach: Row,
     /// 6 X Y Z and 24 X Y Z S.
     sizes: [f64; 2],
     /// Values below are certainly negative: an orientation's determinant, a side's value.
@@ -35,32 +36,22 @@ pub struct View {
 }
 
 impl View {
-    /// A view from p, of nothing yet.
-    pub fn begin(&mut self, p: WeightedPoint) {
-        self.from = p;
+    /// Looks from p at some points, named by their positions; `None` is the infinite vertex, of which nothing is certain. All points are multiples of 2^`grain`,
+    /// weights of its square.
+    pub fn look(&mut self, p: WeightedPoint, points: impl Iterator<Item = Option<WeightedPoint>>, grain: i32) {
         self.rows.clear();
-        self.reach = [0.0; 4];
-    }
-
-    /// Adds a point. Those added are named by their positions.
-    #[inline]
-    pub fn add(&mut self, q: WeightedPoint) {
-        let [x, y, z] = [q.at.x - self.from.at.x, q.at.y - self.from.at.y, q.at.z - self.from.at.z];
-        let square = x * x + y * y + z * z;
-        let weight = q.weight - self.from.weight;
-        self.rows.push([x, y, z, square - weight]);
-        let row = [x.abs(), y.abs(), z.abs(), square + weight.abs()];
-        self.reach = [0, 1, 2, 3].map(|k: usize| if row[k] > self.reach[k] { row[k] } else { self.reach[k] });
-    }
-
-    /// Adds the infinite vertex, of which nothing is certain.
-    pub fn add_nowhere(&mut self) {
-        self.rows.push([0.0; 4]);
-    }
-
-    /// Bounds what was added. All points are multiples of 2^`grain`, weights of its square.
-    pub fn close(&mut self, grain: i32) {
-        let [x, y, z, s] = self.reach;
+        // X, Y, Z, S.
+        let mut reach = [0.0f64; 4];
+        points.for_each(|q| {
+            let Some(q) = q else { return self.rows.push(Row::default()) };
+            let [x, y, z] = [q.at.x - p.at.x, q.at.y - p.at.y, q.at.z - p.at.z];
+            let square = x * x + y * y + z * z;
+            let weight = q.weight - p.weight;
+            self.rows.push(Row([x, y, z, square - weight]));
+            let row = [x.abs(), y.abs(), z.abs(), square + weight.abs()];
+            reach = [0, 1, 2, 3].map(|k: usize| if row[k] > reach[k] { row[k] } else { reach[k] });
+        });
+        let [x, y, z, s] = reach;
         let volume = 6.0 * (x * y) * z;
         self.sizes = [volume, 4.0 * volume * s];
         self.negative_below = self.sizes.map(|size| -error(size));
@@ -71,9 +62,10 @@ impl View {
     /// The orthoball of three of the points and p.
     #[inline]
     pub fn sphere(&self, corners: [u32; 3]) -> Sphere {
-        let [u, v, w] = corners.map(|k| self.rows[k as usize]);
-        let cross =
-            |a: &Row, b: &Row| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        let [u, v, w] = corners.map(|k| self.rows[k as usize].0);
+        let cross = |a: &[f64; 4], b: &[f64; 4]| {
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        };
         let [vw, wu, uv] = [cross(&v, &w), cross(&w, &u), cross(&u, &v)];
         let c = [0, 1, 2].map(|k: usize| u[3] * vw[k] + v[3] * wu[k] + w[3] * uv[k]);
         [-c[0], -c[1], -c[2], u[0] * vw[0] + u[1] * vw[1] + u[2] * vw[2]]
@@ -99,8 +91,9 @@ impl View {
 
     #[inline]
     fn value(&self, s: &Sphere, k: u32) -> f64 {
-        let q = &self.rows[k as usize];
-        (s[0] * q[0] + s[1] * q[1]) + (s[2] * q[2] + s[3] * q[3])
+        let q = &self.rows[k as usize].0;
+        // Two sums side by side.
+        (s[0] * q[0] + s[2] * q[2]) + (s[1] * q[1] + s[3] * q[3])
     }
 
     /// The sign of a value whose monomials have magnitudes of sum `size` at most.
