@@ -6,10 +6,10 @@
 //! A cell entered through a facet has the tuple of the cell before, the corner it does not share replaced by its own. Crossing a facet turns the orientation over, so that
 //! tuples are positive and negative in turn, the first cell's being positive.
 
-use super::complex::{Cell, Complex, NONE};
+use super::complex::{Cell, Complex, INFINITE, NONE};
 use super::glue::FACETS;
 use crate::check::verdict::{Checked, Rule, ensure};
-use crate::model::Tetrahedron;
+use crate::model::{Tetrahedron, WeightedPoint};
 use crate::trace::Bits;
 
 /// A list that takes or leaves what it is offered, without a branch.
@@ -210,6 +210,19 @@ impl Flood {
     pub fn position(&self, mesh: &Complex, v: u32) -> u32 {
         let known = mesh.local(v);
         if self.vertices.taken().get(known as usize) == Some(&v) { known } else { NONE }
+    }
+
+    /// The vertices, then the corner beyond each facet of the rim; nothing for the infinite vertex.
+    pub fn surroundings(&self, mesh: &Complex) -> impl Iterator<Item = Option<WeightedPoint>> + Clone {
+        let beyond = self.sides.iter().map(|side| side.apex);
+        let all = self.vertices.taken().iter().copied().chain(beyond);
+        all.map(|v| (v != INFINITE).then(|| mesh.point(v)))
+    }
+
+    /// The position there of the corner beyond the k-th facet of the rim.
+    #[inline]
+    pub fn beyond(&self, k: usize) -> u32 {
+        (self.vertices.taken().len() + k) as u32
     }
 
     /// Of the cells destroyed the last one in canonical order.

@@ -22,6 +22,7 @@
 use super::certificate::{Ties, check_convex};
 use super::complex::{Cell, Complex, FIRST, INFINITE, NONE, id};
 use super::flood::{Flood, Flooded, Side};
+use super::integers::Sight;
 use super::predicates::{Corners, in_conflict, orient, side, tie_in_conflict};
 use super::view::{Sphere, View};
 use crate::check::verdict::{Checked, Rule, ensure};
@@ -33,6 +34,7 @@ pub struct Cavity {
     /// What is destroyed.
     pub flood: Flood,
     view: View,
+    sight: Sight,
     /// The cells made, one on each facet of the rim.
     made: Vec<u32>,
     /// A cell made at each vertex of the flood; `NONE` for those that are not on the rim.
@@ -47,11 +49,11 @@ impl Cavity {
         self.make(mesh, p)?;
         self.check_rim()?;
         self.look(mesh, p);
-        for (k, (side, &c)) in (0..).zip(self.flood.sides.iter().zip(&self.made)) {
-            let sphere = self.view.sphere(side.corners);
-            let beyond = self.flood.vertices.taken().len() as u32 + k;
-            if ties == Ties::Broken || !self.view.is_clear(&sphere, [side.inner, beyond]) {
-                self.check_cell(mesh, side, c, &sphere, beyond, ties)?;
+        for k in 0..self.made.len() {
+            let Side { corners, inner, .. } = self.flood.sides[k];
+            let sphere = self.view.sphere(corners);
+            if ties == Ties::Broken || !self.view.is_clear(&sphere, [inner, self.flood.beyond(k)]) {
+                self.check_cell(mesh, p, k, &sphere, ties)?;
             }
         }
         Ok(())
@@ -116,37 +118,50 @@ impl Cavity {
         })
     }
 
-    /// Sees from p the vertices, and the corner beyond each facet of the rim.
+    /// Sees from p what is around it.
     fn look(&mut self, mesh: &Complex, p: u32) {
-        let beyond = self.flood.sides.iter().map(|side| side.apex);
-        let all = self.flood.vertices.taken().iter().copied().chain(beyond);
-        self.view.look(mesh.point(p), all.map(|v| (v != INFINITE).then(|| mesh.point(v))), mesh.grain());
+        self.view.look(mesh.point(p), self.flood.surroundings(mesh), mesh.grain());
+        self.sight.close();
     }
 
-    /// (1), (4) and (5) for a new cell and its orthoball; `beyond` is the position of the corner beyond its facet of the rim.
-    fn check_cell(&self, mesh: &Complex, side: &Side, c: u32, sphere: &Sphere, beyond: u32, ties: Ties) -> Checked {
+    /// (1), (4) and (5) for the new cell on a facet of the rim, and its orthoball.
+    fn check_cell(&mut self, mesh: &Complex, p: u32, k: usize, sphere: &Sphere, ties: Ties) -> Checked {
+        let Cavity { flood, view, sight, made, .. } = self;
+        let (side, c) = (flood.sides[k], made[k]);
         let cell = mesh.cell(c);
         if !cell.is_finite() {
             return check_ghost(mesh, c);
         }
-        let positive = self.view.orientation(sphere).unwrap_or_else(|| {
+        let positive = view.orientation(sphere).unwrap_or_else(|| {
             let [x, y, z, p] = cell.v.map(|v| mesh.at(v));
             orient(x, y, z, p)
         });
         ensure(positive.is_positive(), Rule::Orientation, || {
             ("a positively oriented tetrahedron", format!("{:?}", cell.tuple()))
         })?;
-        check_empty(mesh, c, side.apex, self.view.side(sphere, beyond), ties)?;
-        if ties == Ties::Free {
-            let inner = self.flood.vertices.taken()[side.inner as usize];
-            return check_empty(mesh, c, inner, self.view.side(sphere, side.inner), ties);
+        let mut ball = None;
+        let mut check = |q: u32, position: u32| {
+            if q == INFINITE {
+                return Ok(());
+            }
+            let known = view.side(sphere, position).or_else(|| {
+                let ball = ball.get_or_insert_with(|| {
+                    sight.open(mesh.point(p), || flood.surroundings(mesh));
+                    sight.ball(side.corners)
+                });
+                sight.side(ball.as_ref()?, position)
+            });
+            check_empty(mesh, c, q, known, ties)
+        };
+        check(side.apex, flood.beyond(k))?;
+        match ties {
+            Ties::Free => check(flood.vertices.taken()[side.inner as usize], side.inner),
+            Ties::Broken => {
+                // Each facet within the star from one side.
+                let mut inner = cell.beyond.iter().filter(|&&f| f >> 2 > c && f != side.outer);
+                inner.try_for_each(|&f| check(mesh.apex(f), flood.position(mesh, mesh.apex(f))))
+            }
         }
-        // Each facet within the star from one side.
-        for &f in cell.beyond.iter().filter(|&&f| f >> 2 > c && f != side.outer) {
-            let q = mesh.apex(f);
-            check_empty(mesh, c, q, self.view.side(sphere, self.flood.position(mesh, q)), ties)?;
-        }
-        Ok(())
     }
 
     /// (6): adds every vertex that is no more to `lost`, having proved that it is hidden.
@@ -193,9 +208,6 @@ impl Cavity {
 /// That q is not in conflict with a new tetrahedron; its side, if that is known.
 #[inline]
 fn check_empty(mesh: &Complex, c: u32, q: u32, known: Option<Sign>, ties: Ties) -> Checked {
-    if q == INFINITE {
-        return Ok(());
-    }
     let side = known.unwrap_or_else(|| side(&mesh.corners(c), &mesh.point(q)));
     let conflict = match (side, ties) {
         (Sign::Zero, Ties::Broken) => tie_in_conflict(&mesh.corners(c), &mesh.point(q)),

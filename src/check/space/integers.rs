@@ -126,43 +126,163 @@ fn difference(x: f64, y: f64, e: i32) -> Option<i128> {
 
 type Vector = [i64; 3];
 
-/// The differences of points from a base, in units of 2^e, and e: the largest, or `least` if that is more, is from 2^61 to 2^62 (unless it is below 2^-961). Nothing
-/// if a difference is not whole, or if one is itself 2^62 or more.
+/// Differences of coordinates as rounded ones and what these have lost.
+type Differences = [[f64; 2]; 3];
+
+/// The coordinates of q less those of p (two-sum, Knuth).
 #[inline]
-fn differences<const K: usize>(base: Point3, others: [Point3; K], least: f64) -> Option<([Vector; K], i32)> {
-    // As rounded differences and what they have lost (two-sum, Knuth).
-    let base = base.to_array();
-    let mut exact = [[[0.0; 2]; 3]; K];
-    let mut largest = least;
-    for (exact, other) in exact.iter_mut().zip(others) {
-        let other = other.to_array();
-        for k in 0..3 {
-            let (x, y) = (other[k], base[k]);
-            let rounded = x - y;
-            let part = x - rounded;
-            exact[k] = [rounded, (x - (rounded + part)) + (part - y)];
-            // Faster than what also looks for NaN.
-            largest = if rounded.abs() > largest { rounded.abs() } else { largest };
-        }
-    }
+fn differences(p: Point3, q: Point3) -> Differences {
+    let (p, q) = (p.to_array(), q.to_array());
+    [0, 1, 2].map(|k: usize| {
+        let (x, y) = (q[k], p[k]);
+        let rounded = x - y;
+        let part = x - rounded;
+        [rounded, (x - (rounded + part)) + (part - y)]
+    })
+}
+
+/// The greater one. Faster than what also looks for NaN.
+#[inline]
+fn greater(x: f64, y: f64) -> f64 {
+    if x > y { x } else { y }
+}
+
+#[inline]
+fn largest(d: &Differences) -> f64 {
+    greater(greater(d[0][0].abs(), d[1][0].abs()), d[2][0].abs())
+}
+
+/// A number whose square is an eighth of a difference of weights, or less, but not much: with it, weights are below 2^125 squared units.
+#[inline]
+fn root(weight: f64) -> f64 {
+    let exponent = ((weight.to_bits() >> 52) as i32 - 1024).div_euclid(2);
+    if weight > 0.0 { power_of_two(exponent) } else { 0.0 }
+}
+
+/// e, such that differences up to the largest are below 2^62 units of 2^e, and that is not below 2^61 (unless it is below 2^-961).
+#[inline]
+fn unit(largest: f64) -> Option<i32> {
     // The biased exponent; with less, the power of two would overflow.
     let exponent = ((largest.to_bits() >> 52) as i32).max(BITS - 1);
     // Beyond, what is small would vanish by underflow.
-    if exponent >= 1023 + BITS {
-        return None;
+    (exponent < 1023 + BITS).then_some(exponent - 1023 - (BITS - 1))
+}
+
+/// Differences in units of 2^e, `up` being 2^-e; and whether they are whole.
+#[inline]
+fn whole(d: &Differences, up: f64) -> (Vector, bool) {
+    let mut all = true;
+    let vector = d.map(|parts| {
+        let scaled = parts.map(|x| x * up);
+        let [most, rest] = scaled.map(|x| x as i64);
+        all &= most as f64 == scaled[0] && rest as f64 == scaled[1];
+        most.wrapping_add(rest)
+    });
+    (vector, all)
+}
+
+/// A point seen from another.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    to: Vector,
+    lift: i128,
+}
+
+impl Row {
+    /// q seen from p, in units of 2^e.
+    #[inline]
+    fn new(to: Vector, p: &WeightedPoint, q: &WeightedPoint, e: i32) -> Option<Row> {
+        let [x, y, z] = to;
+        let mut lift = product(x, x) + product(y, y) + product(z, z);
+        if q.weight != p.weight {
+            lift -= difference(q.weight, p.weight, 2 * e)?;
+        }
+        Some(Row { to, lift })
     }
-    let e = exponent - 1023 - (BITS - 1);
-    let up = power_of_two(-e);
-    let (mut vectors, mut all_whole) = ([[0; 3]; K], true);
-    for (vector, exact) in vectors.iter_mut().zip(exact) {
-        for k in 0..3 {
-            let scaled = exact[k].map(|x| x * up);
-            let [whole, rest] = scaled.map(|x| x as i64);
-            all_whole &= whole as f64 == scaled[0] && rest as f64 == scaled[1];
-            vector[k] = whole.wrapping_add(rest);
+}
+
+/// The orthoball of three points and the one they are seen from.
+pub(super) struct Ball {
+    minors: [[i128; 3]; 3],
+    lifts: [i128; 3],
+    volume: Wide<TRIPLE>,
+}
+
+impl Ball {
+    /// Of p, u, v and w, which are positively oriented.
+    #[inline]
+    fn new(u: &Row, v: &Row, w: &Row) -> Ball {
+        let minors = [cross(&v.to, &w.to), cross(&w.to, &u.to), cross(&u.to, &v.to)];
+        Ball { minors, lifts: [u.lift, v.lift, w.lift], volume: triple(&minors[0], &u.to) }
+    }
+
+    /// S.x - D L(x) of `predicates`.
+    #[inline]
+    fn depth(&self, x: &Row) -> Wide<DEPTH> {
+        let along = |k: usize| triple(&self.minors[k], &x.to).times(self.lifts[k]);
+        along(0) + along(1) + along(2) - self.volume.times(x.lift)
+    }
+}
+
+/// Points seen from one of them, those that are whole in units of the largest difference over 2^62.
+#[derive(Clone, Debug, Default)]
+pub struct Sight {
+    is_open: bool,
+    rows: Vec<Option<Row>>,
+    differences: Vec<Differences>,
+}
+
+impl Sight {
+    /// Forgets all.
+    pub fn close(&mut self) {
+        self.is_open = false;
+    }
+
+    /// Looks from p at some points, named by their positions, unless it has since `close`. Nothing is known of `None`.
+    pub fn open<P: Iterator<Item = Option<WeightedPoint>> + Clone>(
+        &mut self,
+        p: WeightedPoint,
+        points: impl Fn() -> P,
+    ) {
+        if !self.is_open {
+            self.is_open = true;
+            self.look(p, points());
         }
     }
-    all_whole.then_some((vectors, e))
+
+    fn look(&mut self, p: WeightedPoint, points: impl Iterator<Item = Option<WeightedPoint>> + Clone) {
+        self.differences.clear();
+        let mut most = 0.0;
+        self.differences.extend(points.clone().map(|q| {
+            let q = q.unwrap_or(p);
+            let d = differences(p.at, q.at);
+            most = greater(greater(most, largest(&d)), root((q.weight - p.weight).abs()));
+            d
+        }));
+        self.rows.clear();
+        let Some(e) = unit(most) else {
+            return self.rows.resize(self.differences.len(), None);
+        };
+        let up = power_of_two(-e);
+        self.rows.extend(self.differences.iter().zip(points).map(|(d, q)| {
+            let (to, is_whole) = whole(d, up);
+            Row::new(to, &p, &q?, e).filter(|_| is_whole)
+        }));
+    }
+
+    /// The orthoball of p and three points, if all are whole; (points, p) is positively oriented.
+    #[inline]
+    pub(super) fn ball(&self, corners: [u32; 3]) -> Option<Ball> {
+        let [u, v, w] = corners.map(|k| self.rows[k as usize].as_ref());
+        // (p, v, u, w) is an even permutation of (u, v, w, p).
+        Some(Ball::new(v?, u?, w?))
+    }
+
+    /// The side of a point, if it is whole.
+    #[inline]
+    pub(super) fn side(&self, ball: &Ball, k: u32) -> Option<Sign> {
+        self.rows[k as usize].as_ref().map(|x| ball.depth(x).sign())
+    }
 }
 
 #[inline]
@@ -190,8 +310,10 @@ fn triple(m: &[i128; 3], x: &Vector) -> Wide<TRIPLE> {
 
 /// The sign of `predicates::volume6`.
 pub(super) fn volume6(a: Point3, b: Point3, c: Point3, d: Point3) -> Option<Sign> {
-    let ([u, v, w], _) = differences(a, [b, c, d], 0.0)?;
-    Some(triple(&cross(&v, &w), &u).sign())
+    let all = [b, c, d].map(|p| differences(a, p));
+    let up = power_of_two(-unit(all.iter().map(largest).fold(0.0, greater))?);
+    let [(u, f), (v, g), (w, h)] = all.map(|d| whole(&d, up));
+    (f && g && h).then(|| triple(&cross(&v, &w), &u).sign())
 }
 
 /// The sign of `predicates::depth`.
@@ -202,25 +324,17 @@ pub(super) fn depth(t: &Corners, q: &WeightedPoint) -> Option<Sign> {
 /// In units of 2^(5 e).
 #[inline]
 fn depth_of(t: &Corners, q: &WeightedPoint) -> Option<Wide<DEPTH>> {
-    let all = [t[1], t[2], t[3], *q];
-    let heaviest = all.iter().fold(0.0f64, |m, p| {
-        let weight = (p.weight - t[0].weight).abs();
-        if weight > m { weight } else { m }
-    });
-    // 2^k with weights below 2^(2 k + 3), hence below 2^125 units squared.
-    let root = ((heaviest.to_bits() >> 52) as i32 - 1024).div_euclid(2);
-    let least = if heaviest > 0.0 { power_of_two(root) } else { 0.0 };
-    let (vectors, e) = differences(t[0].at, all.map(|p| p.at), least)?;
-    let mut lifts = vectors.map(|[x, y, z]| product(x, x) + product(y, y) + product(z, z));
-    for (lift, p) in lifts.iter_mut().zip(&all) {
-        if p.weight != t[0].weight {
-            *lift -= difference(p.weight, t[0].weight, 2 * e)?;
-        }
+    let others = [t[1], t[2], t[3], *q];
+    let all = others.map(|p| differences(t[0].at, p.at));
+    let heaviest = others.iter().fold(0.0, |m, p| greater(m, (p.weight - t[0].weight).abs()));
+    let e = unit(all.iter().map(largest).fold(root(heaviest), greater))?;
+    let up = power_of_two(-e);
+    let vectors = all.map(|d| whole(&d, up));
+    if vectors.iter().any(|(_, is_whole)| !is_whole) {
+        return None;
     }
-    let [u, v, w, x] = vectors;
-    let minors = [cross(&v, &w), cross(&w, &u), cross(&u, &v)];
-    let along = |k: usize| triple(&minors[k], &x).times(lifts[k]);
-    Some(along(0) + along(1) + along(2) - triple(&minors[0], &u).times(lifts[3]))
+    let row = |k: usize| Row::new(vectors[k].0, &t[0], &others[k], e);
+    Some(Ball::new(&row(0)?, &row(1)?, &row(2)?).depth(&row(3)?))
 }
 
 #[cfg(test)]
@@ -298,7 +412,7 @@ mod tests {
                         0 => 1.0,
                         1 => 0.0,
                         2..6 => sign(d()) * (power_of_two(61) - power_of_two(8)),
-                        6 if d() % 8 == 0 => sign(d()) * power_of_two(61),
+                        6 if d().is_multiple_of(8) => sign(d()) * power_of_two(61),
                         _ => sign(d()) * (d() << 8) as f64,
                     };
                     let weight = sign(d()) * unit(d()) * power_of_two(125);
@@ -358,6 +472,30 @@ mod tests {
             assert!(answers.contains(&answered), "{name}: {answered}");
         }
         assert!(zeros > 2000, "{zeros}");
+    }
+
+    /// With a whole crowd in sight, of which some are far, infinite or not whole.
+    #[test]
+    fn what_is_seen_is_right() {
+        let mut sight = Sight::default();
+        let (mut answered, mut silent) = (0, 0);
+        for (name, cases, _) in families() {
+            for pair in cases.windows(2) {
+                let ([a, b, c, p, q], [far, ..]) = (pair[0], pair[1]);
+                let points = [Some(far), Some(c), None, Some(a), Some(q), Some(b)];
+                sight.close();
+                sight.open(p, || points.into_iter());
+                let ball = sight.ball([3, 5, 1]);
+                for (k, x) in [(4, q), (0, far)] {
+                    let side = ball.as_ref().and_then(|ball| sight.side(ball, k));
+                    assert!(side.is_none_or(|side| side == truth([a, b, c, p, x])), "{name}: {pair:?}");
+                    answered += u32::from(side.is_some());
+                    silent += u32::from(side.is_none());
+                }
+                assert!(ball.is_none_or(|ball| sight.side(&ball, 2).is_none()), "infinite");
+            }
+        }
+        assert!(answered > 10_000 && silent > 1000, "{answered} {silent}");
     }
 
     /// The families reach the widths that the module's head gives, nearly.
