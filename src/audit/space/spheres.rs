@@ -136,7 +136,8 @@ impl<'a> Spheres<'a> {
         }
         for &[f, g] in &self.near {
             let (t, v) = (fan.slots[f as usize] / 4, fan.corners[g as usize]);
-            let (corners, q) = (self.corners(t), &self.sites[v as usize]);
+            let corners = fan.corners_of(f).map(|v| self.sites[v as usize]);
+            let q = &self.sites[v as usize];
             if self.conflicts(near_side(&corners, q), &corners, q) {
                 self.found.push((t, v));
             }
