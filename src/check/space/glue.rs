@@ -21,6 +21,9 @@ pub const MOST_VERTICES: usize = BORDER as usize;
 /// Corners of a bucket that are numbered: with more, and real ones have fewer, facets are matched by sorting.
 const NUMBERS: u32 = 64;
 
+/// Fans that are told apart; few in tests, so that they are forgotten there, too.
+const STAMPS: u64 = if cfg!(test) { 5 } else { (1 << 32) / NUMBERS as u64 - 1 };
+
 /// Vertices whose cells are fetched together.
 const BLOCK: usize = 32;
 
@@ -246,10 +249,11 @@ impl Fan {
 
 /// A table under way.
 struct Matching {
-    /// The number of the fan at hand, from 1 on.
+    /// The number of the fan at hand, from 1 on; after `STAMPS` anew.
     stamp: u64,
-    /// For each vertex the last fan that it was met in, and its number there.
-    numbers: Vec<u64>,
+    /// For each vertex the last fan that it was met in times `NUMBERS`, plus its number there; 1 if that fan is forgotten. In 32 bits, since places asked for at
+    /// random should be close together.
+    numbers: Vec<u32>,
     /// For each edge, by the numbers of its ends, the last fan that it was met in, and its facet.
     table: Vec<u64>,
     /// For each facet the place in the table of its edge turned.
@@ -260,6 +264,9 @@ impl Matching {
     /// Matches the facets of a fan; false if some clash or corners are many, and then none are. What cannot be foreseen is not branched on: of
     /// a pair and of the border each is written, and kept if it is one.
     fn by_table(&mut self, fan: &mut Fan, fringe: &mut Fringe) -> bool {
+        if self.stamp == STAMPS {
+            self.forget();
+        }
         self.stamp += 1;
         let (mut count, mut clash) = (0, false);
         self.turned.clear();
@@ -298,16 +305,25 @@ impl Matching {
         true
     }
 
+    /// Starts anew, but for which vertices have been met.
+    #[cold]
+    fn forget(&mut self) {
+        self.stamp = 0;
+        self.table.fill(0);
+        self.numbers.iter_mut().for_each(|n| *n = u32::from(*n > 0));
+    }
+
     /// The number of a vertex in the fan at hand, the next one if it has none.
     #[inline]
     fn number(&mut self, v: u32, count: &mut u32) -> u32 {
+        let stamp = self.stamp as u32 * NUMBERS;
         let place = &mut self.numbers[v as usize];
-        let is_new = *place >> 32 != self.stamp;
-        let number = if is_new { *count } else { *place as u32 };
-        *place = self.stamp << 32 | u64::from(number);
-        *count += u32::from(is_new);
+        let is_new = *place & !(NUMBERS - 1) != stamp;
         // Where they are more, the table is not used.
-        number % NUMBERS
+        let number = if is_new { *count } else { *place } % NUMBERS;
+        *place = stamp | number;
+        *count += u32::from(is_new);
+        number
     }
 
     /// Puts the next facet, with an edge from number i to number j, into the table; whether one with that edge is there.
