@@ -20,7 +20,6 @@ pub use record::{
     Algorithm, Cause, Counts, End, Event, Header, Outcome, Record, Shell, Sink, SkipReason, SplitKind, Why,
 };
 pub use sinks::{Discard, Recorder};
-pub use space::{
-    Apex, Bits, Counts3, End3, Event3, Header3, INFINITE, Record3, TriangulationDigest, apex_id, triangulation_digest,
-};
+pub(crate) use space::TriangulationDigest;
+pub use space::{Apex, Bits, Counts3, End3, Event3, Header3, INFINITE, Record3, apex_id, triangulation_digest};
 pub use stream::{DecodeError, Format, Place, Reader, Writer};

@@ -128,7 +128,9 @@ fn is_unrounded(t: &Corners, q: &WeightedPoint) -> bool {
         }
     }
     // Exponents are biased by 1023. The fifth power of u must not underflow, nor 2^53 of them overflow.
-    exact &= (1023 - 200..1023 + 190).contains(&low);
+    if !(1023 - 200..1023 + 190).contains(&low) {
+        return false;
+    }
     let unit2 = 2 * (low - 1023) + 1023;
     let light = weights.1 == i32::MIN || (weights.0 >= unit2 && weights.1 - unit2 < 20);
     exact && light

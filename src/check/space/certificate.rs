@@ -45,7 +45,7 @@ pub fn prove(mesh: &mut Complex, ties: Ties) -> Checked {
 /// Pairs the facets of all tetrahedra, and gives those without partner.
 fn link(mesh: &mut Complex) -> Checked<Vec<u32>> {
     let cells: Vec<[u32; 4]> = (0..mesh.slot_count()).map(|c| mesh.cell(c).v).collect();
-    // Not all vertices: most traces start with one simplex.
+    // Tables as long as the greatest corner asks for: most traces start with one simplex.
     let greatest = cells.as_flattened().iter().max().copied().unwrap_or(0);
     let glued = glue(&cells, greatest as usize + 1);
     if let Some(clash) = glued.clashes.first() {

@@ -111,6 +111,7 @@ impl Checker3 {
 
     fn vertex(&mut self, point: WeightedPoint, input: Option<u32>) -> Checked {
         self.at(Stage::Domain, Stage::Events)?;
+        ensure(self.stage != Stage::Start, Rule::Stream, || ("the rest of the simplices", "a vertex"))?;
         if self.stage == Stage::Events {
             self.replay.check_settled()?;
         }

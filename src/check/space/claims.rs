@@ -43,15 +43,15 @@ pub struct Named<'r> {
     replay: &'r Replay,
     /// Where points stood in the input; empty if ids say so.
     inputs: &'r [u32],
-    /// Whom each number is called by: apexes, last of all, stand behind the points of any simplex.
+    /// What each number is called. Apexes have the largest names.
     name: Vec<u32>,
     /// The slots of simplices by their smallest name, and where those of each name end.
     slots: Vec<u32>,
     ends: Vec<u32>,
 }
 
-/// Names whose simplices are fetched together: memory answers many questions in the time of one.
-const BLOCK: usize = 64;
+/// Names whose simplices are fetched together: memory answers many questions in the time of one, and the digest takes much at once.
+const BLOCK: usize = 512;
 
 impl<'r> Named<'r> {
     /// `inputs` has each place once, or is empty.

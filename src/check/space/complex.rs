@@ -185,7 +185,7 @@ impl Complex {
         self.cells.iter().map(|cell| (cell.v[0] < MARK && cell.is_finite()).then_some(cell.v))
     }
 
-    /// Makes room for as many cells as points that are spread evenly have. Memory is not touched before it is used, and not copied when there is more.
+    /// Makes room for as many cells as points that are spread evenly have: they are not copied while they grow into it, and memory is not touched before it is used.
     pub fn make_room(&mut self) {
         const CELLS_PER_POINT: usize = 7;
         // Where there is not so much, growth by and by must do.

@@ -218,7 +218,8 @@ fn check_empty(mesh: &Complex, c: u32, q: u32, known: Option<Sign>, ties: Ties) 
     })
 }
 
-/// (4) for one cell beyond the hull: of the edges between two new ones, which end at p, each once.
+/// (4) for a new cell c beyond the hull: at the edge of the rim, k = 3, across which is an old cell, and at those that end at p, each from the smaller of its two new cells: the
+/// hull is convex there seen from one of them iff it is seen from the other.
 fn check_ghost(mesh: &Complex, c: u32) -> Checked {
     let cell = mesh.cell(c);
     let infinite = cell.find(INFINITE).unwrap_or(3);
@@ -284,7 +285,7 @@ impl Links {
         self.edges.binary_search_by_key(&[from, to], |e| e.0).map_or(NONE, |k| self.edges[k].1)
     }
 
-    /// If it was not the table is made fit for use again.
+    /// If it was not, the table is made fit for use again.
     fn check_closed(&mut self, closed: bool) -> Checked {
         if !closed {
             self.table.fill(NONE);

@@ -19,9 +19,6 @@ const DEPTH: usize = 5;
 /// Differences of coordinates are below 2 to this power, those of weights below 2^125.
 const BITS: i32 = 62;
 
-/// Most places that an odd mantissa of 53 bits is shifted within 128 bits.
-const MOST_SHIFT: i32 = 73;
-
 /// An integer in two's complement, least limb first: right modulo 2^(64 N).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Wide<const N: usize>([u64; N]);
@@ -116,8 +113,8 @@ fn parts(x: f64) -> (i64, i32) {
 fn difference(x: f64, y: f64, e: i32) -> Option<i128> {
     let whole = |(m, k): (i64, i32)| match k.saturating_sub(e) {
         _ if m == 0 => Some(0),
-        // Below 2^126.
-        shift @ 0..=MOST_SHIFT => Some(i128::from(m) << shift),
+        // A result below 2^126.
+        shift @ 0.. if shift as u32 <= m.unsigned_abs().leading_zeros() + 62 => Some(i128::from(m) << shift),
         _ => None,
     };
     let difference = whole(parts(x))? - whole(parts(y))?;
@@ -152,7 +149,7 @@ fn largest(d: &Differences) -> f64 {
     greater(greater(d[0][0].abs(), d[1][0].abs()), d[2][0].abs())
 }
 
-/// A number whose square is an eighth of a difference of weights, or less, but not much: with it, weights are below 2^125 squared units.
+/// A power of two whose square is more than an eighth of a difference of weights, and at most half of it: with it, that is below 2^125 squared units.
 #[inline]
 fn root(weight: f64) -> f64 {
     let exponent = ((weight.to_bits() >> 52) as i32 - 1024).div_euclid(2);
@@ -238,7 +235,7 @@ impl Sight {
         self.is_open = false;
     }
 
-    /// Looks from p at some points, named by their positions, unless it has since `close`. Nothing is known of `None`.
+    /// Looks from p at some points, named by their positions, unless open. Nothing is known of `None`.
     pub fn open<P: Iterator<Item = Option<WeightedPoint>> + Clone>(
         &mut self,
         p: WeightedPoint,
@@ -419,6 +416,16 @@ mod tests {
                     site([(); 3].map(|()| whole(&mut *d)), if d() & 1 == 0 { 0.0 } else { weight })
                 }),
                 200..=990,
+            ),
+            (
+                "coarse weights on a fine grid",
+                family(draw, |d| site([(); 3].map(|()| (d() % (1 << 20)) as f64), (d() % (1 << 20)) as f64)),
+                1000..=1000,
+            ),
+            (
+                "round weights anywhere",
+                family(draw, |d| site([(); 3].map(|()| unit(d()) + 1.0), (d() % 16) as f64 / 16.0)),
+                900..=1000,
             ),
             (
                 "fine weights on a coarse grid",

@@ -26,6 +26,10 @@
 //! | `claims` | counts, the digest, the triangulation as data |
 //! | `checker` | records |
 
+//!
+//! A row is a point seen from another, a ball the orthoball of three rows and what they are seen from, in three arithmetics: `ball` for one tetrahedron, `view` for all new ones of an
+//! insertion with one bound of errors, `integers` for what the two leave undecided.
+
 pub mod ball;
 mod certificate;
 mod checker;

@@ -10,8 +10,8 @@ pub fn triangulation_digest(t: &Triangulation3) -> String {
     digest.finish()
 }
 
-/// The same under way, for who has no `Triangulation3` in memory.
-pub struct TriangulationDigest {
+/// The same under way, for those who have no `Triangulation3` in memory.
+pub(crate) struct TriangulationDigest {
     hasher: blake3::Hasher,
     bytes: Vec<u8>,
 }

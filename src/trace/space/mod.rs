@@ -13,5 +13,6 @@ pub(super) mod grammar;
 mod record;
 pub(super) mod text;
 
-pub use digest::{TriangulationDigest, triangulation_digest};
+pub(crate) use digest::TriangulationDigest;
+pub use digest::triangulation_digest;
 pub use record::{Apex, Bits, Counts3, End3, Event3, Header3, INFINITE, Record3, apex_id};
