@@ -2,3 +2,4 @@
 
 pub mod cdt2;
 pub mod regular3;
+mod spatial;

@@ -44,7 +44,7 @@ impl<K: Kernel> Cdt2<K> {
     ///
     /// The triangles fill the convex hull. Births and regions are 0.
     pub fn delaunay(points: Vec<Point2>) -> Result<Self, BuildError> {
-        let order = super::spatial::insertion_order(&points);
+        let order = crate::triangulation::spatial::insertion_order(&points);
         let sorted: Vec<Point2> = order.iter().map(|&i| points[i as usize]).collect();
         let collinear = || duplicate(&points).unwrap_or(BuildError::Collinear);
         let mut builder = Builder::<K>::start(sorted).ok_or_else(collinear)?;

@@ -10,12 +10,12 @@
 mod build;
 mod carve;
 mod constrain;
+mod hilbert;
 mod insert;
 mod journal;
 mod locate;
 mod polygon;
 mod remove;
-mod spatial;
 mod store;
 #[cfg(test)]
 mod tests;

@@ -19,7 +19,7 @@ impl<K: Kernel3> Regular3<K> {
     /// growing size, each along a space-filling curve.
     pub fn insertion_order(points: &[WeightedPoint]) -> Vec<u32> {
         assert!(points.len() < (u32::MAX - 8) as usize, "a triangulation holds fewer than 2^32 - 8 points");
-        let mut order = super::spatial::insertion_order(points);
+        let mut order = crate::triangulation::spatial::insertion_order(points);
         let basis = affine_basis::<K>(points, &order);
         for (to, from) in basis.into_iter().enumerate() {
             order[to..=from].rotate_right(1);

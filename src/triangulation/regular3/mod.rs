@@ -34,6 +34,7 @@ mod build;
 mod conflict;
 mod dual;
 mod fill;
+mod hilbert;
 mod insert;
 mod locate;
 mod lodge;
@@ -41,7 +42,6 @@ mod numbers;
 mod raise;
 mod remove;
 mod report;
-mod spatial;
 mod star;
 mod store;
 #[cfg(test)]

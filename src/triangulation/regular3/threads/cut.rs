@@ -2,8 +2,8 @@
 //!
 //! A sample of the points tells where: boxes that differ by some points cost nothing, and no thread waits for a sort of all points.
 
-use super::super::spatial::hash;
 use crate::model::{Point3, WeightedPoint};
+use crate::triangulation::spatial::hash;
 
 /// How many points are looked at: a box of n of them then has the share of the points that it seems to have up to n^(1/2) / n.
 const SAMPLE: usize = 1 << 16;
