@@ -29,10 +29,7 @@ pub fn id(v: u32) -> VertexId {
 }
 
 /// A cell: corners, positively oriented (the infinite vertex being beyond the facet opposite it), and the facets on the other side.
-///
-/// Aligned so that no cell is in two cache lines.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(32))]
 pub struct Cell {
     /// Corners.
     pub v: [u32; 4],

@@ -144,7 +144,7 @@ impl Cavity {
             if q == INFINITE {
                 return Ok(());
             }
-            let known = view.side(sphere, position).or_else(|| {
+            let known = view.side(sphere, side.corners, position).or_else(|| {
                 let ball = ball.get_or_insert_with(|| {
                     sight.open(mesh.point(p), || flood.surroundings(mesh));
                     sight.ball(side.corners)

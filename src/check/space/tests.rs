@@ -2,6 +2,7 @@
 
 use super::ball::{Ball, Row, near_side};
 use super::predicates::{Corners, exact_side, orient};
+use super::view::View;
 use crate::model::{Point3, Sign, WeightedPoint};
 
 /// Numbers of a linear congruence (Knuth's MMIX).
@@ -49,4 +50,37 @@ fn balls_say_what_the_definition_does() {
         }
     }
     assert!(all > 15_000 && 2 * certain > all && ties > 100, "{certain} certain and {ties} ties of {all}");
+}
+
+/// What an insertion sees: near points among which one far away makes the common bound useless.
+#[test]
+fn views_say_what_the_definition_does() {
+    let mut draw = Lcg(11);
+    let mut view = View::default();
+    let (mut certain, mut all) = (0u32, 0u32);
+    for step in [0.0, 2f64.powi(-8), 2f64.powi(-30), 2f64.powi(-50), 0.1, 1e-9] {
+        for weighted in [false, true] {
+            for case in 0..2000 {
+                let [u, v, w, q, p] = [(); 5].map(|()| draw.point(step, weighted));
+                let far = WeightedPoint::unweighted(Point3::splat(if case % 2 == 0 { 1e6 } else { 1.5 }));
+                let mut corners = [0, 1, 2];
+                match orient(u.at, v.at, w.at, p.at) {
+                    Sign::Positive => {}
+                    Sign::Negative => corners.swap(0, 1),
+                    Sign::Zero => continue,
+                }
+                let points = [u, v, w, q, far];
+                view.look(p, points.into_iter().map(Some), -60);
+                let sphere = view.sphere(corners);
+                let [a, b, c] = corners.map(|k| points[k as usize]);
+                for k in [3, 4] {
+                    let (own, truth) = (view.side(&sphere, corners, k), exact_side(&[a, b, c, p], &points[k as usize]));
+                    assert!(own.is_none_or(|own| own == truth), "{step} {points:?} {p:?}");
+                    certain += u32::from(own.is_some());
+                    all += 1;
+                }
+            }
+        }
+    }
+    assert!(all > 30_000 && 3 * certain > 2 * all, "{certain} certain of {all}");
 }

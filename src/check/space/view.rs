@@ -83,10 +83,22 @@ impl View {
         self.sign(-s[3], self.sizes[0])
     }
 
-    /// The side of a point: positive strictly nearer than the orthoball; if that is certain.
-    #[inline]
-    pub fn side(&self, s: &Sphere, k: u32) -> Option<Sign> {
-        self.sign(self.value(s, k), self.sizes[1])
+    /// The side of a point against the orthoball of three others and p: positive strictly nearer; if that is certain, with the bounds of all points or of these.
+    pub fn side(&self, s: &Sphere, corners: [u32; 3], k: u32) -> Option<Sign> {
+        let value = self.value(s, k);
+        self.sign(value, self.sizes[1]).or_else(|| certain(value, self.size(corners, k)))
+    }
+
+    /// 24 X Y Z S of four points alone.
+    fn size(&self, [u, v, w]: [u32; 3], q: u32) -> f64 {
+        let rows = [u, v, w, q].map(|k| {
+            let Row([x, y, z, lift]) = self.rows[k as usize];
+            // The last is no less than the square and the weight that make the lift.
+            [x.abs(), y.abs(), z.abs(), 2.0 * (x * x + y * y + z * z) + lift.abs()]
+        });
+        let [x, y, z, s] =
+            [0, 1, 2, 3].map(|k: usize| rows.iter().fold(0.0, |most, row| if row[k] > most { row[k] } else { most }));
+        24.0 * (x * y) * z * s
     }
 
     #[inline]
